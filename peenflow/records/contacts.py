@@ -1,0 +1,34 @@
+"""Contacts as any DEM engine gives them: the `dem` stage's record."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from peenflow.records.fields import of
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Shot–wall contact samples, one row a shot, facet and sampling time, ordered by time.
+
+    In the part's frame. Engine peculiarities are undone: `force` is what the engine's integrator used and
+    `velocity` what the shot had before the contact began, as far as the row lets it be restored (exact on the
+    first row of a contact, of no use later).
+    """
+
+    t: np.ndarray = of("s", "sampling time", "(n,)")
+    shot: np.ndarray = of("1", "shot number, unique over shards", "(n,) int64")
+    surface: np.ndarray = of("1", "index into `surfaces`", "(n,) int32")
+    facet: np.ndarray = of("1", "triangle of that surface", "(n,) int32")
+    point: np.ndarray = of("m", "contact point", "(n, 3)")
+    velocity: np.ndarray = of("m/s", "shot's velocity before the contact", "(n, 3)")
+    wall_velocity: np.ndarray = of("m/s", "velocity of the wall there", "(n, 3)")
+    force: np.ndarray = of("N", "force on the shot", "(n, 3)")
+    overlap: np.ndarray = of("m", "overlap of sphere and facet", "(n,)")
+    diameter: np.ndarray = of("m", "the shot's diameter", "(n,)")
+    surfaces: tuple[str, ...]  # names: "target", "deflector"
+    interval: float = of("s", "time between samples")
+    duration: float = of("s", "simulated time")
+    shots: int = of("1", "shots thrown")
+    engine: str = of("", "what made it, with version; 'none' where the case gives its impacts")
+    time_step: float = of("s", "the engine's time step; 0 where there is none")
