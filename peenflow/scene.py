@@ -1,0 +1,77 @@
+"""A case with everything the stages need resolved: materials, surface, effects, knobs. Closed forms only."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from peenflow.case.model import Case
+from peenflow.geometry import Surface
+from peenflow.records.material import Material
+
+
+@dataclass(frozen=True)
+class ShotProperties:
+    """The shot as DEM and FE take it (SI)."""
+
+    diameter: float
+    density: float
+    young: float
+    poisson: float
+
+    @property
+    def mass(self) -> float:
+        """[kg]."""
+        return self.density * 3.141592653589793 / 6 * self.diameter**3
+
+
+@dataclass(frozen=True)
+class Knobs:
+    """[accuracy] with the preset filled in (SI); what each costs is design §7's matter."""
+
+    mesh_size: float  # m, FE patch, in the zone of the impacts
+    calibration_mesh_size: float  # m, the unit cell of `calibrate`
+    depth: float  # m, of the FE patch
+    boundary: Literal["far-field", "fixed"]
+    sides: Literal["symmetric", "free"]
+    load: Literal["impact", "pressure"]
+    time_step: float  # share of the stable one
+    relaxation: float  # largest unbalanced over internal nodal force
+    dem_time_step: float  # share of the Rayleigh step
+    contact_interval: int  # DEM steps between contact rows
+    group_distance: float | None  # shot diameters; None: impacts keep their own times
+    min_normal_speed: float  # m/s
+
+
+@dataclass(frozen=True)
+class Decision:
+    """One effect, decided."""
+
+    on: bool
+    state: str  # "auto: on", "auto: off", "on", "off"
+    estimate: float | None  # share of the result it would change
+    threshold: float
+    why: str  # the criterion with its numbers, one line
+    cost: str
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Frozen and complete: stages select from it what they consume."""
+
+    case: Case
+    directory: Path  # where the case lies; files it names are relative to it
+    surface: Surface | None  # None: a calibration alone
+    shot: ShotProperties
+    material: Material  # `rate` and `thermal` are None where their effect is off
+    knobs: Knobs
+    effects: dict[str, Decision]
+    speed: float  # m/s, the fastest nozzle's (or single shot's, or impact's)
+    dent_radius: float  # m, predicted by the closed form at `speed`, normal incidence
+    contact_time: float  # s, likewise
+
+
+@dataclass(frozen=True)
+class Skip:
+    """A stage with nothing to do, and why."""
+
+    reason: str
