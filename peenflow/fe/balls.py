@@ -1,0 +1,89 @@
+"""The spheres' lives: waiting, live from shortly before they touch, gone when they have left."""
+
+import numpy as np
+
+from peenflow.fe.contact import GONE, LIVE, WAITING, Balls, Candidates
+from peenflow.fe.jit import kernel
+from peenflow.fe.model import Model
+from peenflow.records.deck import Spheres
+
+LEAD = 0.1  # of the radius: how far above the surface a sphere becomes live; pile-up stays well below
+CLEARANCE = 0.2  # of the radius: how far above the surface a leaving sphere is let go
+SKIN_SPEED = 100.0  # m/s, what surface nodes may do to a list of candidates
+
+
+def initial(model: Model) -> Balls:
+    """All spheres where they would be at t = 0; one centred on a symmetry plane is halved and kept on it."""
+    spheres = model.spheres
+    if spheres is None:
+        return Balls(*(np.zeros(s) for s in ((0,), (0,), *[(0, 3, 3)] * 2, *[(0, 3)] * 3)), np.zeros(0, np.int64))
+    radius = 0.5 * spheres.diameter
+    count = len(radius)
+    mass = spheres.density * np.pi / 6 * spheres.diameter**3
+    projector, turning = np.tile(np.eye(3), (count, 1, 1)), np.tile(np.eye(3), (count, 1, 1))
+    centre = centres(spheres, 0.0)
+    touch = spheres.point + radius[:, None] * spheres.normal
+    velocity = spheres.velocity.copy()
+    for point, normal in model.mirrors:
+        on_plane = np.abs((touch - point) @ normal) < 1e-6 * radius
+        mirror = np.outer(normal, normal)
+        mass[on_plane] *= 0.5
+        projector[on_plane] = projector[on_plane] @ (np.eye(3) - mirror)
+        turning[on_plane] = turning[on_plane] @ mirror
+        velocity[on_plane] -= np.outer(velocity[on_plane] @ normal, normal)
+    return Balls(
+        radius, mass, projector, turning, centre, velocity, np.zeros((count, 3)), np.full(count, WAITING, np.int64)
+    )
+
+
+def centres(spheres: Spheres, t: float) -> np.ndarray:
+    """Centres (s, 3) [m] in free flight at time t."""
+    flight = (t - spheres.t_start)[:, None] * spheres.velocity
+    return spheres.point + 0.5 * spheres.diameter[:, None] * spheres.normal + flight
+
+
+def update_phases(balls: Balls, spheres: Spheres, t: float, notice: float) -> None:
+    """Wake spheres that would touch within `notice` or are close above the surface; let go of those that left."""
+    approach = np.maximum(-np.einsum("ij,ij->i", spheres.velocity, spheres.normal), 1e-9)
+    lead = np.maximum(notice, LEAD * balls.radius / approach)
+    waking = (balls.phase == WAITING) & (spheres.t_start - t <= lead)
+    balls.centre[waking] = centres(spheres, t)[waking]
+    balls.phase[waking] = LIVE
+    height = np.einsum("ij,ij->i", balls.centre - spheres.point, spheres.normal) - balls.radius
+    leaving = np.einsum("ij,ij->i", balls.velocity, spheres.normal) > 0
+    left = (leaving & (height > CLEARANCE * balls.radius)) | (height < -2 * balls.radius)
+    balls.phase[(balls.phase == LIVE) & left] = GONE
+
+
+@kernel
+def within_reach(centre, reach, nodes, X, u, found):
+    """Write the nodes closer than `reach` to `centre` into `found`, return how many."""
+    count = 0
+    for i in nodes:
+        x, y, z = X[i, 0] + u[i, 0] - centre[0], X[i, 1] + u[i, 1] - centre[1], X[i, 2] + u[i, 2] - centre[2]
+        if x * x + y * y + z * z < reach * reach:
+            found[count] = i
+            count += 1
+    return count
+
+
+def candidates(balls: Balls, model: Model, u: np.ndarray, horizon: float) -> Candidates:
+    """Surface nodes that live spheres may touch within `horizon` seconds."""
+    found, start, lists = np.empty(len(model.surface), np.int64), [0], []
+    for s in range(len(balls.radius)):
+        count = 0
+        if balls.phase[s] == LIVE:
+            speed = float(np.linalg.norm(balls.velocity[s])) + SKIN_SPEED
+            reach = balls.radius[s] + 1.5 * horizon * speed
+            count = within_reach(balls.centre[s], reach, model.surface, model.X, u, found)
+            lists.append(found[:count].copy())
+        start.append(start[-1] + count)
+    nodes = np.concatenate([np.zeros(0, np.int64), *lists])
+    return Candidates(np.array(start), nodes, np.zeros((len(nodes), 3)), np.zeros(len(nodes)))
+
+
+def kinetic_energy(balls: Balls) -> float:
+    """½ M V² + ½ I ω² over all spheres, waiting ones included [J]."""
+    inertia = 0.4 * balls.mass * balls.radius**2
+    moving = 0.5 * balls.mass * np.einsum("ij,ij->i", balls.velocity, balls.velocity)
+    return float(np.sum(moving + 0.5 * inertia * np.einsum("ij,ij->i", balls.spin, balls.spin)))

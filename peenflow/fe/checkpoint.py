@@ -1,0 +1,70 @@
+"""The solver's state on disk: written whole, taken only for the deck and thread count it was written with."""
+
+import hashlib
+import zipfile
+from pathlib import Path
+
+import numpy as np
+
+from peenflow import __version__
+from peenflow.fe.contact import Balls
+from peenflow.fe.recorder import ContactRecorder
+from peenflow.fe.solver import Solver
+from peenflow.files import written_whole
+from peenflow.records.deck import Deck
+
+SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "last_kinetic", "hourglass_ratio")
+ARRAYS = ("u", "v", "force", "deviator", "peeq", "temperature")
+SUMS = ("kinetic", "shots", "contact", "friction", "absorbed", "relaxed", "work")
+
+
+def identity(deck: Deck, threads: int) -> str:
+    """What must agree for a state to be taken up: version, threads and all the deck holds."""
+    digest = hashlib.sha256(f"{__version__} {threads} {deck.controls} {deck.material}".encode())
+    patch = deck.patch
+    arrays = [patch.nodes, patch.hexes, *(r.nodes for r in deck.rollers), *(f.area for f in deck.far_fields)]
+    for load in (deck.spheres, deck.pressures):
+        arrays += [a for a in vars(load).values() if isinstance(a, np.ndarray)] if load is not None else []
+    for array in arrays:
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+def save(solver: Solver, path: Path) -> None:
+    """Write the state beside `path`, then rename."""
+    state = solver.state
+    ledger, recorder = state.ledger, state.recorder
+    arrays = {name: getattr(state, name) for name in ARRAYS}
+    arrays |= {f"ball_{name}": value for name, value in state.balls._asdict().items()}
+    arrays |= {f"recorder_{name}": np.array(value) for name, value in vars(recorder).items()}
+    arrays["scalars"] = np.array([getattr(state, name) for name in SCALARS])
+    arrays["sums"] = np.array([getattr(ledger, name) for name in SUMS])
+    arrays["element_sums"] = ledger.elements
+    arrays["rows"] = np.array(ledger.rows)
+    arrays["identity"] = np.array(identity(solver.deck, solver.threads))
+    with written_whole(path) as partial, open(partial, "wb") as handle:
+        np.savez(handle, **arrays)
+
+
+def resume(solver: Solver, path: Path) -> bool:
+    """Take up the state in `path`; False if there is none or it belongs to another deck, version or thread count."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            saved = dict(file)
+    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
+        return False
+    if str(saved.get("identity")) != identity(solver.deck, solver.threads):
+        return False
+    state = solver.state
+    for name in ARRAYS:
+        setattr(state, name, saved[name])
+    for name, value in zip(SCALARS, saved["scalars"], strict=True):
+        setattr(state, name, float(value))
+    state.step = int(state.step)
+    state.balls = Balls(*(saved[f"ball_{name}"] for name in Balls._fields))
+    for name, value in zip(SUMS, saved["sums"], strict=True):
+        setattr(state.ledger, name, float(value))
+    state.ledger.elements = saved["element_sums"]
+    state.ledger.rows = [tuple(row) for row in saved["rows"].tolist()]
+    state.recorder = ContactRecorder(**{name: saved[f"recorder_{name}"].tolist() for name in vars(ContactRecorder())})
+    return True

@@ -1,0 +1,120 @@
+"""Pressure loads that follow the deforming surface: footprint × radial shape × history, from tables."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from peenflow.fe.jit import kernel
+from peenflow.records.deck import PressureLoads
+from peenflow.records.target import Patch
+
+
+class Footprints(NamedTuple):
+    """Each load's surface quads with their place in the footprint, fixed by the undeformed surface."""
+
+    nodes: np.ndarray  # (n,) every node under a load
+    start: np.ndarray  # (s + 1,) first row of each load
+    quads: np.ndarray  # (k, 4) node numbers
+    distance: np.ndarray  # (k,) from the load's centre over its final radius, in the footprint's own measure
+    peak: np.ndarray  # (s,) Pa
+    t_start: np.ndarray  # (s,) s
+    duration: np.ndarray  # (s,) s
+    tau: np.ndarray  # (j,)
+    history: np.ndarray  # (j,)
+    growth: np.ndarray  # (j,)
+    rho: np.ndarray  # (i,)
+    shape: np.ndarray  # (i,)
+
+
+def footprint_measure(offsets: np.ndarray, corners: int) -> np.ndarray:
+    """Distance (k,) whose unit circle is the footprint: round, or a regular polygon of the same area.
+
+    Args:
+        offsets: (k, 2) from the centre, over the radius of the circle.
+        corners: 0 for a circle, else of the polygon; its sides face the axes.
+    """
+    round_distance = np.linalg.norm(offsets, axis=1)
+    if corners == 0:
+        return round_distance
+    apothem = np.sqrt(np.pi / (corners * np.tan(np.pi / corners)))
+    angles = 2 * np.pi / corners * np.arange(corners)
+    sides = np.stack([np.cos(angles), np.sin(angles)])
+    return (offsets @ sides).max(axis=1) / apothem
+
+
+def footprints(loads: PressureLoads, patch: Patch) -> Footprints:
+    """Quads under each load. Offsets are taken in the tangent plane at the load's centre's nearest quad."""
+    corners = patch.nodes[patch.surface]
+    centres = corners.mean(axis=1)
+    diagonal = np.linalg.norm(corners[:, 2] - corners[:, 0], axis=1).max()
+    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    start, quads, distances = [0], [np.zeros((0, 4), int)], [np.zeros(0)]
+    for point, radius in zip(loads.point, loads.radius, strict=True):
+        offset = centres - point
+        near = np.flatnonzero((offset**2).sum(axis=1) < (1.2 * radius + diagonal) ** 2)
+        normal = normals[near[np.argmin((offset[near] ** 2).sum(axis=1))]] if len(near) else np.array([0.0, 0.0, 1.0])
+        along = np.cross([0.0, 1.0, 0.0], normal)
+        along /= np.linalg.norm(along)
+        flat = np.stack([offset[near] @ along, offset[near] @ np.cross(normal, along)], axis=1) / radius
+        measure = footprint_measure(flat, loads.corners)
+        inside = measure < 1.0
+        quads.append(patch.surface[near[inside]])
+        distances.append(measure[inside])
+        start.append(start[-1] + int(inside.sum()))
+    under = np.concatenate(quads).astype(np.int64)
+    tables = (np.ascontiguousarray(t, float) for t in (loads.tau, loads.history, loads.growth, loads.rho, loads.shape))
+    times = (loads.peak, loads.t_start, loads.duration)
+    return Footprints(np.unique(under), np.array(start), under, np.concatenate(distances), *times, *tables)
+
+
+@kernel
+def diagonal(X, u, a, b):
+    """From deformed node a to deformed node b as a tuple."""
+    return X[b, 0] + u[b, 0] - X[a, 0] - u[a, 0], X[b, 1] + u[b, 1] - X[a, 1] - u[a, 1], X[b, 2] + u[b, 2] - X[a, 2] - u[a, 2]
+
+
+@kernel
+def load_forces(loads, t, X, u, external):
+    """external ← the loads' nodal forces at time t: −p A n/4 at each quad's nodes, A n of the deformed quad.
+
+    A n is half the cross product of the quad's diagonals; `external` is (n, 3) [N] and cleared at the loads' nodes first.
+    """
+    for i in loads.nodes:
+        external[i] = 0.0
+    for s in range(len(loads.peak)):
+        tau = (t - loads.t_start[s]) / loads.duration[s]
+        if not 0.0 <= tau <= 1.0:
+            continue
+        peak = loads.peak[s] * np.interp(tau, loads.tau, loads.history)
+        reach = np.interp(tau, loads.tau, loads.growth)
+        for k in range(loads.start[s], loads.start[s + 1]):
+            if not loads.distance[k] < reach:
+                continue
+            quad = loads.quads[k]
+            px, py, pz = diagonal(X, u, quad[0], quad[2])
+            qx, qy, qz = diagonal(X, u, quad[1], quad[3])
+            eighth = 0.125 * peak * np.interp(loads.distance[k] / reach, loads.rho, loads.shape)
+            for i in quad:
+                external[i, 0] -= eighth * (py * qz - pz * qy)
+                external[i, 1] -= eighth * (pz * qx - px * qz)
+                external[i, 2] -= eighth * (px * qy - py * qx)
+
+
+@kernel
+def add_at(nodes, external, force):
+    """force[i] += external[i] at `nodes`."""
+    for i in nodes:
+        for a in range(3):
+            force[i, a] += external[i, a]
+
+
+@kernel
+def work_done(nodes, external, before, v, drift):
+    """Σ f · (v₋ + v₊)/2 Δt over the loaded nodes [J]; `before` (k, 3) are their velocities before the step."""
+    work = 0.0
+    for k in range(len(nodes)):
+        i = nodes[k]
+        for a in range(3):
+            work += external[i, a] * 0.5 * (before[k, a] + v[i, a]) * drift
+    return work
