@@ -1,7 +1,7 @@
 """How a stage tells how far it is, without knowing who looks."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import Protocol
 
 
@@ -15,17 +15,11 @@ class Task(Protocol):
 class Progress(Protocol):
     """Where bars and notes go."""
 
-    def task(self, name: str, total: float) -> "TaskContext":
+    def task(self, name: str, total: float) -> AbstractContextManager[Task]:
         """Open a bar for the length of a `with` block."""
 
     def note(self, message: str) -> None:
         """Say one line that also goes into log.txt."""
-
-
-class TaskContext(Protocol):
-    def __enter__(self) -> Task: ...
-
-    def __exit__(self, *exc: object) -> bool | None: ...
 
 
 class _SilentTask:
@@ -38,8 +32,10 @@ class Silent:
 
     @contextmanager
     def task(self, name: str, total: float) -> Iterator[Task]:
+        """A bar that is not there."""
         del name, total
         yield _SilentTask()
 
     def note(self, message: str) -> None:
+        """Say nothing."""
         del message

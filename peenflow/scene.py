@@ -1,10 +1,11 @@
 """A case with everything the stages need resolved: materials, surface, effects, knobs. Closed forms only."""
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from peenflow.case.model import Case
+from peenflow.case.model import Case, Nozzle
 from peenflow.geometry import Surface
 from peenflow.records.material import Material
 
@@ -21,7 +22,11 @@ class ShotProperties:
     @property
     def mass(self) -> float:
         """[kg]."""
-        return self.density * 3.141592653589793 / 6 * self.diameter**3
+        return self.density * math.pi / 6 * self.diameter**3
+
+    def per_second(self, nozzle: Nozzle) -> float:
+        """How many such shots the nozzle throws [1/s], from its rate or its mass rate."""
+        return nozzle.rate if nozzle.rate is not None else (nozzle.mass_rate or 0.0) / self.mass
 
 
 @dataclass(frozen=True)

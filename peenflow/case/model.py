@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from peenflow.case import units
 
 Switch = Literal["auto", "on", "off"]
+DisplayUnits = units.DisplayUnits
 Positive = Annotated[float, Field(gt=0)]
 PositiveLength = Annotated[units.Length, Field(gt=0)]
 PositiveSpeed = Annotated[units.Speed, Field(gt=0)]
@@ -55,11 +56,15 @@ class Shot(Section):
 
 
 class PlateGeometry(Section):
+    """A plate: surface z = 0, metal below."""
+
     kind: Literal["plate"]
     thickness: PositiveLength
 
 
 class BoltHoleGeometry(Section):
+    """A bore along z from 0 to its length, metal around it."""
+
     kind: Literal["bolt-hole"]
     diameter: PositiveLength
     length: PositiveLength
@@ -181,9 +186,10 @@ class Effects(Section):
 
 
 class Report(Section):
-    """[report]: over which area profiles are means."""
+    """[report]: over which area profiles are means, and the units of pages and plots (stress, length)."""
 
     area: PositiveLength | None = None
+    units: DisplayUnits = ("MPa", "mm")
 
 
 class Hpc(Section):

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import pint
 from pydantic import BeforeValidator
 
-_registry: pint.UnitRegistry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+_registry: pint.UnitRegistry[float] = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 
 
 def to_si(text: Any, unit: str) -> float:
@@ -18,11 +18,11 @@ def to_si(text: Any, unit: str) -> float:
     if isinstance(text, bool) or not isinstance(text, str):
         raise ValueError(f'{text!r} has no unit: write it as a string with one, like "1 {unit}"')
     try:
-        quantity = _registry.Quantity(text)
+        quantity: pint.Quantity[float] = _registry.Quantity(text)
         value = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError as error:
         given = "none" if quantity.unitless else f"{quantity.units}"
-        raise ValueError(f'{text!r}: the unit is {given}, it must be convertible to {unit}') from error
+        raise ValueError(f"{text!r}: the unit is {given}, it must be convertible to {unit}") from error
     except Exception as error:  # pint raises its tokenizer's and Python's own errors on odd text
         raise ValueError(f'{text!r} is not a quantity: write a number and a unit, like "1 {unit}"') from error
     if not math.isfinite(value):
@@ -44,3 +44,18 @@ Pressure = Annotated[float, _reader("Pa")]
 Density = Annotated[float, _reader("kg/m^3")]
 Temperature = Annotated[float, _reader("K")]
 HeatCapacity = Annotated[float, _reader("J/(kg K)")]
+
+
+def _stress_and_length(value: Any) -> Any:
+    """("MPa", "mm") from "MPa, mm"."""
+    if not isinstance(value, str):
+        return value
+    given = tuple(part.strip() for part in value.split(","))
+    for name, unit in zip(given, ("Pa", "m"), strict=False):
+        to_si(f"1 {name}", unit)
+    if len(given) != 2:
+        raise ValueError(f'{value!r}: write a unit of stress and one of length, like "MPa, mm"')
+    return given
+
+
+DisplayUnits = Annotated[tuple[str, str], BeforeValidator(_stress_and_length)]

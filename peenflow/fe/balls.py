@@ -16,7 +16,8 @@ def initial(model: Model) -> Balls:
     """All spheres where they would be at t = 0; one centred on a symmetry plane is halved and kept on it."""
     spheres = model.spheres
     if spheres is None:
-        return Balls(*(np.zeros(s) for s in ((0,), (0,), *[(0, 3, 3)] * 2, *[(0, 3)] * 3)), np.zeros(0, np.int64))
+        none, vectors, tensors = np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3, 3))
+        return Balls(none, none, tensors, tensors, vectors, vectors, vectors, np.zeros(0, np.int64))
     radius = 0.5 * spheres.diameter
     count = len(radius)
     mass = spheres.density * np.pi / 6 * spheres.diameter**3
@@ -38,7 +39,7 @@ def initial(model: Model) -> Balls:
 
 def centres(spheres: Spheres, t: float) -> np.ndarray:
     """Centres (s, 3) [m] in free flight at time t."""
-    flight = (t - spheres.t_start)[:, None] * spheres.velocity
+    flight: np.ndarray = (t - spheres.t_start)[:, None] * spheres.velocity
     return spheres.point + 0.5 * spheres.diameter[:, None] * spheres.normal + flight
 
 

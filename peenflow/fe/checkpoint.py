@@ -1,12 +1,12 @@
 """The solver's state on disk: written whole, taken only for the deck and thread count it was written with."""
 
-import hashlib
 import zipfile
 from pathlib import Path
 
 import numpy as np
 
 from peenflow import __version__
+from peenflow.digest import key, leaves
 from peenflow.fe.contact import Balls
 from peenflow.fe.recorder import ContactRecorder
 from peenflow.fe.solver import Solver
@@ -20,14 +20,7 @@ SUMS = ("kinetic", "shots", "contact", "friction", "absorbed", "relaxed", "work"
 
 def identity(deck: Deck, threads: int) -> str:
     """What must agree for a state to be taken up: version, threads and all the deck holds."""
-    digest = hashlib.sha256(f"{__version__} {threads} {deck.controls} {deck.material}".encode())
-    patch = deck.patch
-    arrays = [patch.nodes, patch.hexes, *(r.nodes for r in deck.rollers), *(f.area for f in deck.far_fields)]
-    for load in (deck.spheres, deck.pressures):
-        arrays += [a for a in vars(load).values() if isinstance(a, np.ndarray)] if load is not None else []
-    for array in arrays:
-        digest.update(np.ascontiguousarray(array).tobytes())
-    return digest.hexdigest()
+    return key(leaves(deck), f"{__version__} {threads}")
 
 
 def save(solver: Solver, path: Path) -> None:

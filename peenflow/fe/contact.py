@@ -1,13 +1,13 @@
 """Rigid spheres against the surface: kinematic contact, exact in momentum, with Coulomb friction and spin.
 
 Predictor–corrector: nodes and spheres move freely; nodes that would lie inside a sphere get impulses p_k along the
-normals n_k (from the sphere's centre outwards) so that they end on it, while the sphere's own recoil is part of the same
-equations:
+normals n_k (from the sphere's centre outwards) so that they end on it, while the sphere's own recoil is part of the
+same equations:
 
     a_k p_k + n_k · S W / M = −g_k/Δt,   W = Σ p_j n_j,   a_k = n_k · P_k n_k / m_k
 
-g_k is the penetration (negative gap), P_k and S project onto what rollers let node and sphere do. Eliminating p_k leaves
-3 × 3 equations for W; impulses that would pull are left out and the rest solved again.
+g_k is the penetration (negative gap), P_k and S project onto what rollers let node and sphere do. Eliminating p_k
+leaves 3 × 3 equations for W; impulses that would pull are left out and the rest solved again.
 """
 
 import math
@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from peenflow.fe.jit import kernel
+from peenflow.fe.vectors import cross, dot
 
 WAITING, LIVE, GONE = 0, 1, 2
 PASSES = 6
@@ -74,16 +75,30 @@ def allowed(surface, i, x, y, z):
 
 @kernel
 def solve3(a, b):
-    """x of a x = b, a 3 × 3, by cofactors."""
-    c0 = a[1, 1] * a[2, 2] - a[1, 2] * a[2, 1]
-    c1 = a[1, 2] * a[2, 0] - a[1, 0] * a[2, 2]
-    c2 = a[1, 0] * a[2, 1] - a[1, 1] * a[2, 0]
-    d = a[0, 0] * c0 + a[0, 1] * c1 + a[0, 2] * c2
-    x = np.empty(3)
-    x[0] = (b[0] * c0 + b[1] * (a[0, 2] * a[2, 1] - a[0, 1] * a[2, 2]) + b[2] * (a[0, 1] * a[1, 2] - a[0, 2] * a[1, 1])) / d
-    x[1] = (b[0] * c1 + b[1] * (a[0, 0] * a[2, 2] - a[0, 2] * a[2, 0]) + b[2] * (a[0, 2] * a[1, 0] - a[0, 0] * a[1, 2])) / d
-    x[2] = (b[0] * c2 + b[1] * (a[0, 1] * a[2, 0] - a[0, 0] * a[2, 1]) + b[2] * (a[0, 0] * a[1, 1] - a[0, 1] * a[1, 0])) / d
-    return x
+    """x of a x = b, a 3 × 3, by Cramer's rule."""
+    ax, ay, az = (a[0, 0], a[1, 0], a[2, 0]), (a[0, 1], a[1, 1], a[2, 1]), (a[0, 2], a[1, 2], a[2, 2])
+    right = (b[0], b[1], b[2])
+    determinant = dot(ax, cross(ay, az))
+    x = dot(right, cross(ay, az)) / determinant
+    y = dot(ax, cross(right, az)) / determinant
+    z = dot(ax, cross(ay, right)) / determinant
+    return x, y, z
+
+
+@kernel
+def recoil_equations(touching, pushing, normal, need, mobility, projector, mass):
+    """Matrix (3, 3) and right side (3,) of the equations for W, from the nodes that push."""
+    matrix, right = np.eye(3), np.zeros(3)
+    for k in range(touching):
+        if pushing[k]:
+            n = (normal[k, 0], normal[k, 1], normal[k, 2])
+            # n · S, S symmetric
+            along = projected(projector, n[0], n[1], n[2])
+            for a in range(3):
+                right[a] += need[k] / mobility[k] * n[a]
+                for b in range(3):
+                    matrix[a, b] += n[a] * along[b] / (mobility[k] * mass)
+    return matrix, right
 
 
 @kernel
@@ -97,33 +112,19 @@ def normal_impulses(touching, normal, need, mobility, projector, mass, impulse):
         impulse: (≥ touching,) overwritten with p_k [N s].
     """
     pushing = np.ones(touching, np.bool_)
-    total = np.zeros(3)
     for _ in range(PASSES):
-        matrix, right = np.eye(3), np.zeros(3)
-        for k in range(touching):
-            if pushing[k]:
-                for a in range(3):
-                    right[a] += need[k] / mobility[k] * normal[k, a]
-                    for b in range(3):
-                        along = 0.0
-                        for c in range(3):
-                            along += normal[k, c] * projector[c, b]
-                        matrix[a, b] += normal[k, a] * along / (mobility[k] * mass)
-        total[:] = solve3(matrix, right)
-        recoil = projected(projector, total[0] / mass, total[1] / mass, total[2] / mass)
+        matrix, right = recoil_equations(touching, pushing, normal, need, mobility, projector, mass)
+        x, y, z = solve3(matrix, right)
+        recoil = projected(projector, x / mass, y / mass, z / mass)
         pulling = False
         for k in range(touching):
-            impulse[k] = 0.0
-            if pushing[k]:
-                n = normal[k]
-                impulse[k] = (need[k] - n[0] * recoil[0] - n[1] * recoil[1] - n[2] * recoil[2]) / mobility[k]
-                if impulse[k] < 0.0:
-                    pushing[k] = False
-                    pulling = True
-                    impulse[k] = 0.0
+            p = (need[k] - dot((normal[k, 0], normal[k, 1], normal[k, 2]), recoil)) / mobility[k]
+            impulse[k] = p if pushing[k] and p > 0.0 else 0.0
+            pulling |= pushing[k] and p < 0.0
+            pushing[k] &= p >= 0.0
         if not pulling:
             break
-    total[:] = 0.0
+    total = np.zeros(3)
     for k in range(touching):
         for a in range(3):
             total[a] += impulse[k] * normal[k, a]

@@ -19,7 +19,7 @@ def _cache_folder() -> Path:
     return root / "peenflow" / "kernels" / digest.hexdigest()[:16]
 
 
-numba.config.CACHE_DIR = str(_cache_folder())
+numba.config.CACHE_DIR = str(_cache_folder())  # type: ignore[attr-defined]
 
 # NaN and infinities keep their meaning (no "nnan", "ninf"): the guard looks for them.
 _ALGEBRA = {"contract", "reassoc", "nsz", "arcp"}

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from peenflow.fe.jit import inlined, kernel
 
 TOLERANCE = 1e-7  # of the trial stress
+NEGLIGIBLE = 1e-14  # plastic strain below which a virgin element counts as elastic: with n → 0 the root may underflow
 MAX_ITERATIONS = 60  # bisection alone would need 24
 
 
@@ -80,6 +81,8 @@ def plastic_increment(trial, peeq, factor, law):
     if excess <= 0.0:
         return 0.0
     three_g = 3.0 * law.shear
+    if peeq == 0.0 and excess <= three_g * NEGLIGIBLE + factor * law.B * NEGLIGIBLE**law.n:
+        return 0.0
     low, high = 0.0, excess / three_g
     slope = three_g + (law.n * hard / peeq if peeq > 0.0 else three_g)
     delta = excess / slope

@@ -11,7 +11,7 @@ from peenflow.fe.lanes import blocked
 from peenflow.fe.motion import node_spans
 from peenflow.fe.timestep import nodal_volumes
 from peenflow.records.deck import Deck, Spheres
-from peenflow.records.material import Material
+from peenflow.records.material import Material, ThermalSoftening
 
 
 @dataclass(frozen=True)
@@ -42,12 +42,16 @@ def constants(material: Material) -> tuple[Law, Rate | None, Thermal | None]:
     """The material's numbers in the kernels' form; None for an effect that is off."""
     m, rate, thermal = material, material.rate, material.thermal
     law = Law(m.density, m.shear, m.bulk, m.c_p, m.A, m.B, m.n)
-    heating = thermal and thermal.taylor_quinney / (m.density * thermal.heat_capacity)
     return (
         law,
-        rate and Rate(rate.C, rate.reference_rate),
-        thermal and Thermal(thermal.m, thermal.room, thermal.melt, float(heating or 0.0)),
+        None if rate is None else Rate(rate.C, rate.reference_rate),
+        None if thermal is None else _softening(thermal, m.density),
     )
+
+
+def _softening(thermal: ThermalSoftening, density: float) -> Thermal:
+    heating = thermal.taylor_quinney / (density * thermal.heat_capacity)
+    return Thermal(thermal.m, thermal.room, thermal.melt, heating)
 
 
 def build(deck: Deck, threads: int) -> Model:
@@ -63,7 +67,7 @@ def build(deck: Deck, threads: int) -> Model:
     held = np.full(len(X), -1, dtype=np.int64)
     held[rollers.nodes] = np.arange(len(rollers.nodes))
     law, rate, thermal = constants(deck.material)
-    loads = deck.pressures and pressure.footprints(deck.pressures, patch)
+    loads = None if deck.pressures is None else pressure.footprints(deck.pressures, patch)
     if loads is not None:
         spans[0] = 0, len(X)  # loads are added to the first thread's forces
     return Model(

@@ -54,9 +54,9 @@ def to_nodes(xi, eta, zeta, h1, h2, h3, h4):
 
 @inlined
 def volume_gradients(x1, x2, x3, h1, h2, h3):
-    """V and the tuple of its derivatives by the linear and the first three hourglass coefficients (h₄ does not enter V).
+    """V and the tuple of its derivatives by the linear and the first three hourglass coefficients (V has no h₄).
 
-    V = ∫ x,ξ · (x,η × x,ζ) = 8 [x_ξ x_η x_ζ] + 8/3 ([x_ξ h₃ h₂] + [h₃ x_η h₁] + [h₂ h₁ x_ζ]), brackets: triple products.
+    V = ∫ x,ξ · (x,η × x,ζ) = 8 [x_ξ x_η x_ζ] + 8/3 ([x_ξ h₃ h₂] + [h₃ x_η h₁] + [h₂ h₁ x_ζ]); [ ]: triple products.
     """
     third = 8.0 / 3.0
     g1 = add(scaled(8.0, cross(x2, x3)), scaled(third, cross(h3, h2)))

@@ -1,5 +1,7 @@
 """Central differences: velocities half a step on, displacements a whole step."""
 
+import itertools
+
 import numpy as np
 from numba import prange
 
@@ -60,7 +62,5 @@ def remember(nodes, v, before):
 
 def node_spans(blocks: np.ndarray, ranges: np.ndarray) -> np.ndarray:
     """(threads, 2) first and last+1 node in each thread's range of blocks."""
-    return np.array(
-        [[blocks[a:b].min(), blocks[a:b].max() + 1] if b > a else [0, 0] for a, b in zip(ranges, ranges[1:], strict=False)],
-        dtype=np.int64,
-    )
+    parts = (blocks[a:b] for a, b in itertools.pairwise(ranges))
+    return np.array([[part.min(), part.max() + 1] if part.size else [0, 0] for part in parts], dtype=np.int64)

@@ -47,7 +47,7 @@ def side_reaction(solver: Solver, stress: np.ndarray, volumes: np.ndarray) -> fl
     The section's force is the mean over the slab of elements around x = 0: ∫σ₁₁ dV over the slab's thickness. The
     side's is the sum of the nodal forces at x_min (zero within the residual where the sides are free).
     """
-    patch, model, state = solver.deck.patch, solver.model, solver.state
+    patch, state = solver.deck.patch, solver.state
     x = patch.nodes[patch.hexes, 0]
     middle = 0.5 * (patch.nodes[:, 0].min() + patch.nodes[:, 0].max())
     slab = (x.min(axis=1) <= middle) & (x.max(axis=1) > middle)
@@ -78,4 +78,3 @@ def response(solver: Solver, residual: float, updates_per_s: float) -> Response:
         time_step=state.first_dt,
         element_updates_per_s=updates_per_s,
     )
-

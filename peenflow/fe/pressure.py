@@ -71,14 +71,18 @@ def footprints(loads: PressureLoads, patch: Patch) -> Footprints:
 @kernel
 def diagonal(X, u, a, b):
     """From deformed node a to deformed node b as a tuple."""
-    return X[b, 0] + u[b, 0] - X[a, 0] - u[a, 0], X[b, 1] + u[b, 1] - X[a, 1] - u[a, 1], X[b, 2] + u[b, 2] - X[a, 2] - u[a, 2]
+    return (
+        X[b, 0] + u[b, 0] - X[a, 0] - u[a, 0],
+        X[b, 1] + u[b, 1] - X[a, 1] - u[a, 1],
+        X[b, 2] + u[b, 2] - X[a, 2] - u[a, 2],
+    )
 
 
 @kernel
 def load_forces(loads, t, X, u, external):
     """external ← the loads' nodal forces at time t: −p A n/4 at each quad's nodes, A n of the deformed quad.
 
-    A n is half the cross product of the quad's diagonals; `external` is (n, 3) [N] and cleared at the loads' nodes first.
+    A n is half the cross product of the quad's diagonals; `external` (n, 3) [N] is cleared at the loads' nodes first.
     """
     for i in loads.nodes:
         external[i] = 0.0

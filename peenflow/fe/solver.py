@@ -8,11 +8,11 @@ import numpy as np
 from peenflow.errors import RunError
 from peenflow.fe import balls as spheres
 from peenflow.fe import boundary, motion, pressure
-from peenflow.fe.contact import LIVE, Balls, Candidates, Surface, correct
+from peenflow.fe.contact import Balls, Surface, correct
 from peenflow.fe.internal_forces import add_internal_forces
 from peenflow.fe.lanes import LANES
 from peenflow.fe.ledger import Ledger
-from peenflow.fe.model import Model, build
+from peenflow.fe.model import build
 from peenflow.fe.recorder import ContactRecorder
 from peenflow.fe.timestep import damped, least_transit_time
 from peenflow.records.deck import Deck
@@ -81,6 +81,14 @@ class Solver:
         state.ledger.work = state.ledger.shots = spheres.kinetic_energy(state.balls)
         return state
 
+    def take_over(self, earlier: "Solver") -> None:
+        """Start from where an earlier run of the same mesh came to rest."""
+        state, before = self.state, earlier.state
+        state.u, state.force = before.u.copy(), before.force.copy()
+        state.deviator, state.peeq, state.temperature = (
+            a.copy() for a in (before.deviator, before.peeq, before.temperature)
+        )
+
     @property
     def touching(self) -> bool:
         """A sphere got an impulse in the last step."""
@@ -124,15 +132,17 @@ class Solver:
             RunError: an element has inverted, or is not finite.
         """
         model, controls = self.model, self.deck.controls
-        least_transit_time(model.ranges, model.blocks, model.elements, model.X, self.state.u, model.law.c_p, self._least)
+        least_transit_time(
+            model.ranges, model.blocks, model.elements, model.X, self.state.u, model.law.c_p, self._least
+        )
         step, element = self._least[np.argmin(self._least[:, 0])]
         if not step > 0.0:
             nodes = self.deck.patch.hexes[int(element)]
             x, y, z = 1e3 * (model.X[nodes].mean(axis=0))
             raise RunError(
-                f"The solver stopped at step {self.state.step} ({self.state.time * 1e6:.4g} µs): element {int(element)} at "
-                f"({x:.4g}, {y:.4g}, {z:.4g}) mm of the patch has no volume left. A smaller accuracy.time_step or a finer "
-                "accuracy.mesh_size bears larger deformation; a speed or a material constant may be out of range."
+                f"The solver stopped at {self._now()}: element {int(element)} at ({x:.4g}, {y:.4g}, {z:.4g}) mm of the "
+                "patch has no volume left. A smaller accuracy.time_step or a finer accuracy.mesh_size bears larger "
+                "deformation; a speed or a material constant may be out of range."
             )
         return damped(float(step), controls.time_step_share, controls.bulk_viscosity_linear)
 
@@ -146,9 +156,7 @@ class Solver:
             motion.remember(model.loads.nodes, state.v, self._before_loads)
             pressure.load_forces(model.loads, state.time, model.X, state.u, self._external)
             pressure.add_at(model.loads.nodes, self._external, state.force[0])
-        motion.advance(
-            model.chunks, model.spans, state.force, model.mass, state.u, state.v, kick, dt, self._kinetic
-        )
+        motion.advance(model.chunks, model.spans, state.force, model.mass, state.u, state.v, kick, dt, self._kinetic)
         boundary.hold(model.rollers.nodes, model.rollers.projectors, state.u, state.v, dt)
         ledger.absorbed += boundary.absorb(model.far, model.mass, state.u, state.v, self._before_far, kick, dt)
         if model.loads is not None:
@@ -183,6 +191,9 @@ class Solver:
         """Fail where a figure is no longer finite."""
         if not np.isfinite(self.state.ledger.imbalance):
             raise RunError(
-                f"The solver stopped at step {self.state.step} ({self.state.time * 1e6:.4g} µs): energies are no longer "
-                "finite. Lower accuracy.time_step; look at the last good state in the log."
+                f"The solver stopped at {self._now()}: energies are no longer finite. Lower accuracy.time_step, and look "
+                "for a speed or a material constant out of range."
             )
+
+    def _now(self) -> str:
+        return f"step {self.state.step} ({self.state.time * 1e6:.4g} µs)"

@@ -87,8 +87,8 @@ def _check(solver: Solver, residual: float, progress: Progress) -> None:
     if ledger.error > controls.energy_error_limit:
         raise RunError(
             f"The energy balance is off by {100 * ledger.error:.2g} % of all energy brought in, above the limit of "
-            f"{100 * controls.energy_error_limit:.2g} % (deck.toml, energy_error_limit). Lower accuracy.time_step or refine "
-            "accuracy.mesh_size, and look at the energies on the report page of an earlier run."
+            f"{100 * controls.energy_error_limit:.2g} % (deck.toml, energy_error_limit). Lower accuracy.time_step or "
+            "refine accuracy.mesh_size, then run again."
         )
     if residual > controls.relaxation:
         progress.note(

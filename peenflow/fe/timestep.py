@@ -70,7 +70,7 @@ def nodal_volumes(blocks, elements, X, volumes):
         gather(blocks[block], X, reference)
         for lane in range(min(LANES, elements - block * LANES)):
             x = read_modes(reference, lane)
-            volume, g = modes.volume_gradients(x[0], x[1], x[2], x[3], x[4], x[5])
+            volume, _ = modes.volume_gradients(x[0], x[1], x[2], x[3], x[4], x[5])
             for k in range(8):
                 volumes[blocks[block, k, lane]] += 0.125 * volume
 

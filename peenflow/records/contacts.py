@@ -1,6 +1,7 @@
 """Contacts as any DEM engine gives them: the `dem` stage's record."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
@@ -16,19 +17,19 @@ class Contacts:
     first row of a contact, of no use later).
     """
 
-    t: np.ndarray = of("s", "sampling time", "(n,)")
-    shot: np.ndarray = of("1", "shot number, unique over shards", "(n,) int64")
-    surface: np.ndarray = of("1", "index into `surfaces`", "(n,) int32")
-    facet: np.ndarray = of("1", "triangle of that surface", "(n,) int32")
-    point: np.ndarray = of("m", "contact point", "(n, 3)")
-    velocity: np.ndarray = of("m/s", "shot's velocity before the contact", "(n, 3)")
-    wall_velocity: np.ndarray = of("m/s", "velocity of the wall there", "(n, 3)")
-    force: np.ndarray = of("N", "force on the shot", "(n, 3)")
-    overlap: np.ndarray = of("m", "overlap of sphere and facet", "(n,)")
-    diameter: np.ndarray = of("m", "the shot's diameter", "(n,)")
+    t: Annotated[np.ndarray, of("s", "sampling time", "(n,)")]
+    shot: Annotated[np.ndarray, of("1", "shot number, unique over shards", "(n,) int64")]
+    surface: Annotated[np.ndarray, of("1", "index into `surfaces`", "(n,) int32")]
+    facet: Annotated[np.ndarray, of("1", "triangle of that surface", "(n,) int32")]
+    point: Annotated[np.ndarray, of("m", "contact point", "(n, 3)")]
+    velocity: Annotated[np.ndarray, of("m/s", "shot's velocity before the contact", "(n, 3)")]
+    wall_velocity: Annotated[np.ndarray, of("m/s", "velocity of the wall there", "(n, 3)")]
+    force: Annotated[np.ndarray, of("N", "force on the shot", "(n, 3)")]
+    overlap: Annotated[np.ndarray, of("m", "overlap of sphere and facet", "(n,)")]
+    diameter: Annotated[np.ndarray, of("m", "the shot's diameter", "(n,)")]
     surfaces: tuple[str, ...]  # names: "target", "deflector"
-    interval: float = of("s", "time between samples")
-    duration: float = of("s", "simulated time")
-    shots: int = of("1", "shots thrown")
-    engine: str = of("", "what made it, with version; 'none' where the case gives its impacts")
-    time_step: float = of("s", "the engine's time step; 0 where there is none")
+    interval: Annotated[float, of("s", "time between samples")]
+    duration: Annotated[float, of("s", "simulated time")]
+    shots: Annotated[int, of("1", "shots thrown")]
+    engine: Annotated[str, of("", "what made it, with version; 'none' where the case gives its impacts")]
+    time_step: Annotated[float, of("s", "the engine's time step; 0 where there is none")]

@@ -1,6 +1,7 @@
 """The FE deck: all that `solve` needs, complete in itself (`deck.toml` + `deck.h5`)."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
@@ -13,8 +14,8 @@ from peenflow.records.target import Patch
 class Placement:
     """Where the patch lies in the part: x_part = rotation @ x_patch + origin."""
 
-    rotation: np.ndarray = of("1", "proper rotation", "(3, 3)")
-    origin: np.ndarray = of("m", "the patch's centre on the surface, in the part's frame", "(3,)")
+    rotation: Annotated[np.ndarray, of("1", "proper rotation", "(3, 3)")]
+    origin: Annotated[np.ndarray, of("m", "the patch's centre on the surface, in the part's frame", "(3,)")]
 
     def to_part(self, points: np.ndarray) -> np.ndarray:
         """Points (…, 3) of the patch frame in the part's."""
@@ -29,34 +30,34 @@ class Placement:
 class Roller:
     """Nodes that cannot move along a direction of their own (a symmetry plane, a support)."""
 
-    name: str = of("", "node set")
-    nodes: np.ndarray = of("1", "node numbers", "(k,) int32")
-    normals: np.ndarray = of("1", "held unit directions", "(k, 3)")
-    mirror: bool = of("1", "a symmetry plane: a sphere centred on it is shared with its mirror image")
+    name: Annotated[str, of("", "node set")]
+    nodes: Annotated[np.ndarray, of("1", "node numbers", "(k,) int32")]
+    normals: Annotated[np.ndarray, of("1", "held unit directions", "(k, 3)")]
+    mirror: Annotated[bool, of("1", "a symmetry plane: a sphere centred on it is shared with its mirror image")]
 
 
 @dataclass(frozen=True)
 class FarField:
     """The body behind a face: static springs and dashpots (physics: Lysmer; Deeks & Randolph)."""
 
-    name: str = of("", "node set")
-    nodes: np.ndarray = of("1", "node numbers", "(k,) int32")
-    normals: np.ndarray = of("1", "unit normals out of the mesh", "(k, 3)")
-    area: np.ndarray = of("m2", "area each node stands for", "(k,)")
-    distance: float = of("m", "from the impacts to the face: sets the springs")
+    name: Annotated[str, of("", "node set")]
+    nodes: Annotated[np.ndarray, of("1", "node numbers", "(k,) int32")]
+    normals: Annotated[np.ndarray, of("1", "unit normals out of the mesh", "(k, 3)")]
+    area: Annotated[np.ndarray, of("m2", "area each node stands for", "(k,)")]
+    distance: Annotated[float, of("m", "from the impacts to the face: sets the springs")]
 
 
 @dataclass(frozen=True)
 class Spheres:
     """Rigid shots that arrive with the DEM's velocity, in the patch frame."""
 
-    diameter: np.ndarray = of("m", "diameter", "(s,)")
-    density: np.ndarray = of("kg/m3", "density", "(s,)")
-    point: np.ndarray = of("m", "where it would first touch the undeformed surface", "(s, 3)")
-    normal: np.ndarray = of("1", "outward surface normal there", "(s, 3)")
-    velocity: np.ndarray = of("m/s", "velocity before the hit", "(s, 3)")
-    t_start: np.ndarray = of("s", "when it would first touch", "(s,)")
-    friction: float = of("1", "Coulomb coefficient; 0 none")
+    diameter: Annotated[np.ndarray, of("m", "diameter", "(s,)")]
+    density: Annotated[np.ndarray, of("kg/m3", "density", "(s,)")]
+    point: Annotated[np.ndarray, of("m", "where it would first touch the undeformed surface", "(s, 3)")]
+    normal: Annotated[np.ndarray, of("1", "outward surface normal there", "(s, 3)")]
+    velocity: Annotated[np.ndarray, of("m/s", "velocity before the hit", "(s, 3)")]
+    t_start: Annotated[np.ndarray, of("s", "when it would first touch", "(s,)")]
+    friction: Annotated[float, of("1", "Coulomb coefficient; 0 none")]
 
 
 @dataclass(frozen=True)
@@ -66,35 +67,34 @@ class PressureLoads:
     p(r, t) = peak[i]·history(τ)·shape(r/a), a = radius[i]·growth(τ), τ = (t − t_start[i])/duration[i].
     """
 
-    point: np.ndarray = of("m", "centre on the undeformed surface", "(s, 3)")
-    radius: np.ndarray = of("m", "final radius of the footprint", "(s,)")
-    peak: np.ndarray = of("Pa", "largest pressure, at the footprint's centre", "(s,)")
-    t_start: np.ndarray = of("s", "start", "(s,)")
-    duration: np.ndarray = of("s", "length of the history", "(s,)")
-    tau: np.ndarray = of("1", "0 … 1, the tables' common abscissa of time", "(k,)")
-    history: np.ndarray = of("1", "share of the peak by τ", "(k,)")
-    growth: np.ndarray = of("1", "share of the final radius by τ (1 throughout: a fixed footprint)", "(k,)")
-    rho: np.ndarray = of("1", "0 … 1, r/a", "(j,)")
-    shape: np.ndarray = of("1", "pressure over that at the centre by r/a", "(j,)")
-    corners: int = of("1", "0: circle; 8: octagon of the circle's area")
+    point: Annotated[np.ndarray, of("m", "centre on the undeformed surface", "(s, 3)")]
+    radius: Annotated[np.ndarray, of("m", "final radius of the footprint", "(s,)")]
+    peak: Annotated[np.ndarray, of("Pa", "largest pressure, at the footprint's centre", "(s,)")]
+    t_start: Annotated[np.ndarray, of("s", "start", "(s,)")]
+    duration: Annotated[np.ndarray, of("s", "length of the history", "(s,)")]
+    tau: Annotated[np.ndarray, of("1", "0 … 1, the tables' common abscissa of time", "(k,)")]
+    history: Annotated[np.ndarray, of("1", "share of the peak by τ", "(k,)")]
+    growth: Annotated[np.ndarray, of("1", "share of the final radius by τ (1 throughout: a fixed footprint)", "(k,)")]
+    rho: Annotated[np.ndarray, of("1", "0 … 1, r/a", "(j,)")]
+    shape: Annotated[np.ndarray, of("1", "pressure over that at the centre by r/a", "(j,)")]
+    corners: Annotated[int, of("1", "0: circle; 8: octagon of the circle's area")]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Controls:
     """Numbers of the time integration (the readable part of the deck)."""
 
-    title: str = of("", "the case's title")
-    end_time: float = of("s", "end of the impacts; relaxation follows")
-    time_step_share: float = of("1", "share of the stable step")
-    hourglass_stiffness: float = of("1", "Flanagan–Belytschko stiffness coefficient")
-    hourglass_viscosity: float = of("1", "viscous hourglass coefficient")
-    bulk_viscosity_linear: float = of("1", "linear bulk viscosity")
-    bulk_viscosity_quadratic: float = of("1", "quadratic bulk viscosity")
-    relaxation: float = of("1", "largest residual: unbalanced over internal nodal force")
-    relaxation_time: float = of("s", "longest time given to relaxation")
-    checkpoint_steps: int = of("1", "steps between checkpoints")
-    energy_error_limit: float = of("1", "a run that exceeds it fails")
-    precision: str = of("", "float64 or float32")
+    title: Annotated[str, of("", "the case's title")]
+    end_time: Annotated[float, of("s", "end of the impacts; relaxation follows")]
+    time_step_share: Annotated[float, of("1", "share of the stable step")]
+    hourglass_stiffness: Annotated[float, of("1", "Flanagan–Belytschko stiffness coefficient")] = 0.05
+    hourglass_viscosity: Annotated[float, of("1", "viscous hourglass coefficient")] = 0.02
+    bulk_viscosity_linear: Annotated[float, of("1", "linear bulk viscosity")] = 0.06
+    bulk_viscosity_quadratic: Annotated[float, of("1", "quadratic bulk viscosity")] = 1.2
+    relaxation: Annotated[float, of("1", "largest residual: unbalanced over internal nodal force")]
+    relaxation_time: Annotated[float, of("s", "longest time given to relaxation")]
+    checkpoint_steps: Annotated[int, of("1", "steps between checkpoints")]
+    energy_error_limit: Annotated[float, of("1", "a run that exceeds it fails")] = 0.02
 
 
 @dataclass(frozen=True)

@@ -1,13 +1,24 @@
-"""Declaring what a record's field holds: unit, shape, meaning (all SI)."""
+"""Declaring what a record's field holds: `stress: Annotated[np.ndarray, of("Pa", "Cauchy stress", "(m, 6)")]`."""
 
-import dataclasses
-from typing import Any
+import typing
+from typing import Any, NamedTuple
 
 
-def of(unit: str, meaning: str, shape: str = "", default: Any = dataclasses.MISSING) -> Any:
-    """A dataclass field with its SI unit ("1" if none), meaning and array shape as metadata.
+class Quantity(NamedTuple):
+    """A field's SI unit ("1" if none), meaning and array shape; written beside the values in HDF5."""
 
-    The metadata is written beside the values in HDF5 (`peenflow.records.hdf5`).
-    """
-    metadata = {"unit": unit, "meaning": meaning, "shape": shape}
-    return dataclasses.field(default=default, metadata=metadata)
+    unit: str
+    meaning: str
+    shape: str = ""
+
+
+of = Quantity
+
+
+def quantities(cls: type[Any]) -> dict[str, Quantity]:
+    """The declared quantities of a record's fields, by name."""
+    hints = typing.get_type_hints(cls, include_extras=True)
+    found = {
+        name: [q for q in getattr(hint, "__metadata__", ()) if isinstance(q, Quantity)] for name, hint in hints.items()
+    }
+    return {name: declared[0] for name, declared in found.items() if declared}

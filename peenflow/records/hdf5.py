@@ -17,6 +17,7 @@ import numpy as np
 
 from peenflow.errors import InputError
 from peenflow.files import written_whole
+from peenflow.records.fields import Quantity, quantities
 
 LAYOUT = 1
 R = TypeVar("R")
@@ -46,39 +47,41 @@ def load(cls: type[R], path: Path) -> R:
                 )
             return typing.cast(R, _read(file, cls))
     except (OSError, KeyError, TypeError, ValueError) as error:
-        raise InputError(
-            f"{path} cannot be read as {cls.__name__}: {error}. Remove it and run again."
-        ) from error
+        raise InputError(f"{path} cannot be read as {cls.__name__}: {error}. Remove it and run again.") from error
 
 
 def _write(group: h5py.Group, record: Any) -> None:
+    declared = quantities(type(record))
     for field in dataclasses.fields(record):
-        value = getattr(record, field.name)
+        name, value = field.name, getattr(record, field.name)
         if value is None:
             continue
         if dataclasses.is_dataclass(value):
-            _write(group.create_group(field.name), value)
+            _write(group.create_group(name), value)
         elif isinstance(value, np.ndarray):
-            _write_array(group, field, value)
+            _describe(_write_array(group, name, value), declared[name])
         elif isinstance(value, dict):
-            sub = group.create_group(field.name)
+            sub = group.create_group(name)
             for key, array in value.items():
                 sub.create_dataset(key, data=array)
-            sub.attrs.update({k: v for k, v in field.metadata.items() if v})
+            _describe(sub, declared[name])
         elif isinstance(value, tuple) and value and dataclasses.is_dataclass(value[0]):
-            sub = group.create_group(field.name)
+            sub = group.create_group(name)
             for i, item in enumerate(value):
                 _write(sub.create_group(f"{i:04d}"), item)
         elif isinstance(value, tuple):
-            group.attrs[field.name] = list(value)
+            group.attrs[name] = list(value)
         else:
-            group.attrs[field.name] = value
+            group.attrs[name] = value
 
 
-def _write_array(group: h5py.Group, field: Any, value: np.ndarray) -> None:
+def _write_array(group: h5py.Group, name: str, value: np.ndarray) -> h5py.Dataset:
     options = {"compression": "gzip", "compression_opts": 1, "shuffle": True} if value.size > 4096 else {}
-    dataset = group.create_dataset(field.name, data=value, **options)
-    dataset.attrs.update({k: v for k, v in field.metadata.items() if v})
+    return group.create_dataset(name, data=value, **options)
+
+
+def _describe(item: h5py.Dataset | h5py.Group, quantity: Quantity) -> None:
+    item.attrs.update({key: value for key, value in quantity._asdict().items() if value})
 
 
 def _read(group: h5py.Group, cls: Any) -> Any:

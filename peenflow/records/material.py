@@ -1,6 +1,7 @@
 """Material constants as the solver takes them; what an effect switched off needs is None."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
 from peenflow.records.fields import of
 
@@ -9,33 +10,33 @@ from peenflow.records.fields import of
 class RateHardening:
     """Johnson–Cook's rate factor 1 + C max(0, ln(ε̇/ε̇0))."""
 
-    C: float = of("1", "rate coefficient")
-    reference_rate: float = of("1/s", "ε̇0")
+    C: Annotated[float, of("1", "rate coefficient")]
+    reference_rate: Annotated[float, of("1/s", "ε̇0")]
 
 
 @dataclass(frozen=True)
 class ThermalSoftening:
     """Johnson–Cook's factor 1 − ((T−T0)/(Tm−T0))^m with adiabatic heating by plastic work."""
 
-    m: float = of("1", "exponent")
-    room: float = of("K", "T0: reference temperature of the softening term")
-    melt: float = of("K", "Tm")
-    heat_capacity: float = of("J/(kg K)", "cp")
-    taylor_quinney: float = of("1", "share of plastic work that becomes heat")
-    initial: float = of("K", "temperature of the part before peening")
+    m: Annotated[float, of("1", "exponent")]
+    room: Annotated[float, of("K", "T0: reference temperature of the softening term")]
+    melt: Annotated[float, of("K", "Tm")]
+    heat_capacity: Annotated[float, of("J/(kg K)", "cp")]
+    taylor_quinney: Annotated[float, of("1", "share of plastic work that becomes heat")]
+    initial: Annotated[float, of("K", "temperature of the part before peening")]
 
 
 @dataclass(frozen=True)
 class Material:
     """Elastic–plastic target: σ_y = (A + B ε_p^n)·rate·thermal."""
 
-    name: str = of("", "set's name in the library")
-    density: float = of("kg/m3", "ρ")
-    young: float = of("Pa", "E")
-    poisson: float = of("1", "ν")
-    A: float = of("Pa", "yield stress")
-    B: float = of("Pa", "hardening modulus")
-    n: float = of("1", "hardening exponent")
+    name: Annotated[str, of("", "set's name in the library")]
+    density: Annotated[float, of("kg/m3", "ρ")]
+    young: Annotated[float, of("Pa", "E")]
+    poisson: Annotated[float, of("1", "ν")]
+    A: Annotated[float, of("Pa", "yield stress")]
+    B: Annotated[float, of("Pa", "hardening modulus")]
+    n: Annotated[float, of("1", "hardening exponent")]
     rate: RateHardening | None
     thermal: ThermalSoftening | None
 

@@ -1,6 +1,7 @@
 """What `solve` leaves: the peened patch."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
@@ -11,45 +12,45 @@ from peenflow.records.fields import of
 class Energies:
     """Ledger by time, cumulative, in J; imbalance = total − brought in."""
 
-    time: np.ndarray = of("s", "sampling times", "(k,)")
-    kinetic: np.ndarray = of("J", "nodes", "(k,)")
-    shots: np.ndarray = of("J", "kinetic energy of the spheres", "(k,)")
-    internal: np.ndarray = of("J", "elastic and plastic", "(k,)")
-    plastic: np.ndarray = of("J", "plastic part of internal", "(k,)")
-    hourglass: np.ndarray = of("J", "stored and dissipated by hourglass control", "(k,)")
-    viscous: np.ndarray = of("J", "bulk viscosity", "(k,)")
-    contact: np.ndarray = of("J", "lost when a node is taken along by a sphere", "(k,)")
-    friction: np.ndarray = of("J", "Coulomb friction", "(k,)")
-    absorbed: np.ndarray = of("J", "far field: dashpots and springs", "(k,)")
-    relaxed: np.ndarray = of("J", "kinetic energy taken out by relaxation", "(k,)")
-    work: np.ndarray = of("J", "brought in: spheres' first kinetic energy and the loads' work", "(k,)")
+    time: Annotated[np.ndarray, of("s", "sampling times", "(k,)")]
+    kinetic: Annotated[np.ndarray, of("J", "nodes", "(k,)")]
+    shots: Annotated[np.ndarray, of("J", "kinetic energy of the spheres", "(k,)")]
+    internal: Annotated[np.ndarray, of("J", "elastic and plastic", "(k,)")]
+    plastic: Annotated[np.ndarray, of("J", "plastic part of internal", "(k,)")]
+    hourglass: Annotated[np.ndarray, of("J", "stored and dissipated by hourglass control", "(k,)")]
+    viscous: Annotated[np.ndarray, of("J", "bulk viscosity", "(k,)")]
+    contact: Annotated[np.ndarray, of("J", "lost when a node is taken along by a sphere", "(k,)")]
+    friction: Annotated[np.ndarray, of("J", "Coulomb friction", "(k,)")]
+    absorbed: Annotated[np.ndarray, of("J", "far field: dashpots and springs", "(k,)")]
+    relaxed: Annotated[np.ndarray, of("J", "kinetic energy taken out by relaxation", "(k,)")]
+    work: Annotated[np.ndarray, of("J", "brought in: spheres' first kinetic energy and the loads' work", "(k,)")]
 
 
 @dataclass(frozen=True)
 class SphereResults:
     """What became of each rigid shot, in the patch frame; forces are the full sphere's."""
 
-    velocity_out: np.ndarray = of("m/s", "when it has left the surface", "(s, 3)")
-    spin_out: np.ndarray = of("rad/s", "likewise", "(s, 3)")
-    peak_force: np.ndarray = of("N", "largest 12 ns mean", "(s,)")
-    first_contact: np.ndarray = of("s", "time of first contact; NaN if none", "(s,)")
-    last_contact: np.ndarray = of("s", "time of last contact; NaN if none", "(s,)")
+    velocity_out: Annotated[np.ndarray, of("m/s", "when it has left the surface", "(s, 3)")]
+    spin_out: Annotated[np.ndarray, of("rad/s", "likewise", "(s, 3)")]
+    peak_force: Annotated[np.ndarray, of("N", "largest 12 ns mean", "(s,)")]
+    first_contact: Annotated[np.ndarray, of("s", "time of first contact; NaN if none", "(s,)")]
+    last_contact: Annotated[np.ndarray, of("s", "time of last contact; NaN if none", "(s,)")]
 
 
 @dataclass(frozen=True)
 class Response:
     """Record of the `solve` stage, in the patch frame."""
 
-    displacement: np.ndarray = of("m", "of the nodes", "(n, 3)")
-    stress: np.ndarray = of("Pa", "Cauchy stress xx yy zz xy yz zx in the patch frame", "(m, 6)")
-    peeq: np.ndarray = of("1", "equivalent plastic strain", "(m,)")
-    temperature: np.ndarray | None = of("K", "where thermal softening is on", "(m,)")
+    displacement: Annotated[np.ndarray, of("m", "of the nodes", "(n, 3)")]
+    stress: Annotated[np.ndarray, of("Pa", "Cauchy stress xx yy zz xy yz zx in the patch frame", "(m, 6)")]
+    peeq: Annotated[np.ndarray, of("1", "equivalent plastic strain", "(m,)")]
+    temperature: Annotated[np.ndarray | None, of("K", "where thermal softening is on", "(m,)")]
     spheres: SphereResults | None
     energies: Energies
-    energy_error: float = of("1", "|imbalance| over all energy brought in")
-    hourglass_energy_ratio: float = of("1", "hourglass over internal energy at the end of the impacts")
-    residual: float = of("1", "unbalanced over internal nodal force after relaxation")
-    side_reaction: float = of("1", "∫σ dA over a mid section against the sides' reaction: relative difference")
-    steps: int = of("1", "explicit steps, relaxation included")
-    time_step: float = of("s", "first stable step used")
-    element_updates_per_s: float = of("1/s", "elements × steps over wall time")
+    energy_error: Annotated[float, of("1", "|imbalance| over all energy brought in")]
+    hourglass_energy_ratio: Annotated[float, of("1", "hourglass over internal energy at the end of the impacts")]
+    residual: Annotated[float, of("1", "unbalanced over internal nodal force after relaxation")]
+    side_reaction: Annotated[float, of("1", "relative difference of ∫σ dA over a mid section and the sides' reaction")]
+    steps: Annotated[int, of("1", "explicit steps, relaxation included")]
+    time_step: Annotated[float, of("s", "first stable step used")]
+    element_updates_per_s: Annotated[float, of("1/s", "elements × steps over wall time")]

@@ -1,0 +1,34 @@
+# make setup | demo | test | test-long | lint: each sets up what it needs and is quick when there is nothing to do.
+SHELL := /bin/bash
+.DELETE_ON_ERROR:
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+RESULTS := cases/bolt-hole/results
+
+.PHONY: setup demo test test-long lint clean
+
+setup: $(READY)
+
+$(READY): pyproject.toml tools/setup.sh peenflow/__init__.py
+	tools/setup.sh $(VENV)
+	touch $@
+
+demo: setup
+	$(BIN)/peenflow run cases/bolt-hole --out $(RESULTS)
+	@echo "Open $(CURDIR)/$(RESULTS)/report/index.html"
+
+# two workers, one solver thread each: more would only take turns on two cores
+test: setup
+	NUMBA_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not long"
+
+test-long: setup
+	$(BIN)/pytest -m long
+
+lint: setup
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+clean:
+	rm -rf $(VENV) dist build .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,0 +1,67 @@
+"""[accuracy]: what each preset sets, relative to the predicted dent and the shot, and what the case overrides."""
+
+from dataclasses import dataclass
+
+from peenflow.case.model import Case, PlateGeometry
+from peenflow.dent import Dent, speed_for_depth
+from peenflow.records.material import Material
+from peenflow.scene import Knobs, ShotProperties
+
+SHALLOWEST = 0.02  # of the deepest dent: what is shallower does not count (design §3, min_normal_speed)
+CONTACT_INTERVAL = 2  # DEM steps: loses at most 1 % of a contact's impulse
+GROUP_DISTANCE = 1.5  # shot diameters: two simultaneous hits change the residual stress by 0.5 % rms (1.0: 1.2 %)
+
+
+@dataclass(frozen=True)
+class Preset:
+    """One level of accuracy. Where no source stands, the value is this program's choice."""
+
+    tolerance: float  # share of the result from which an effect counts
+    elements_per_dent: float  # of the patch, in a predicted dent radius
+    cell_elements_per_dent: float  # of the calibration's unit cell
+    depth: float  # of the patch, in shot diameters: far field within 1.7 % rms at 1.05 d, 0.3 % at 2.1 d
+    time_step: float  # share of the stable one: 0.7 to 0.9 is stable
+    relaxation: float  # largest unbalanced over internal nodal force
+    dem_time_step: float  # share of the Rayleigh step: at most 0.2
+
+
+PRESETS = {
+    "draft": Preset(0.05, 2.0, 4.0, 1.05, 0.8, 0.02, 0.2),
+    "standard": Preset(0.02, 3.0, 6.3, 2.1, 0.8, 0.01, 0.2),
+    "fine": Preset(0.01, 5.0, 12.0, 3.2, 0.7, 0.005, 0.1),
+}
+
+
+def patch_depth(case: Case, shot: ShotProperties) -> float:
+    """Depth of the FE patch [m]: accuracy.depth, else patch.depth, else the preset's, not more than the plate's."""
+    patch, geometry = case.target.patch, case.target.geometry
+    stated = case.accuracy.depth or (patch.depth if patch else None)
+    depth = stated or PRESETS[case.accuracy.preset].depth * shot.diameter
+    return min(depth, geometry.thickness) if isinstance(geometry, PlateGeometry) else depth
+
+
+def knobs(case: Case, shot: ShotProperties, material: Material, dent: Dent, far_field: bool) -> Knobs:
+    """Every knob with the preset filled in; `dent` is the predicted one at the case's speed.
+
+    In a case that is a single shot, accuracy.mesh_size and boundary are the unit cell's, which absorbs unless told
+    otherwise. min_normal_speed is where the predicted dent is 2 % as deep as the deepest.
+    """
+    given, preset = case.accuracy, PRESETS[case.accuracy.preset]
+    own_cell = given.mesh_size if case.single_shot else None
+    slowest = given.min_normal_speed
+    if slowest is None:
+        slowest = speed_for_depth(SHALLOWEST, dent.speed, shot, material)
+    return Knobs(
+        mesh_size=given.mesh_size or dent.radius / preset.elements_per_dent,
+        calibration_mesh_size=given.calibration_mesh_size or own_cell or dent.radius / preset.cell_elements_per_dent,
+        depth=patch_depth(case, shot),
+        boundary=given.boundary or ("far-field" if far_field or case.single_shot else "fixed"),
+        sides=given.sides,
+        load=given.load,
+        time_step=given.time_step or preset.time_step,
+        relaxation=given.relaxation or preset.relaxation,
+        dem_time_step=given.dem_time_step or preset.dem_time_step,
+        contact_interval=given.contact_interval or CONTACT_INTERVAL,
+        group_distance=None if given.group_distance == "off" else given.group_distance or GROUP_DISTANCE,
+        min_normal_speed=slowest,
+    )

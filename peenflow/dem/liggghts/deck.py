@@ -1,0 +1,161 @@
+"""The LIGGGHTS input of one shard, and the numbers it is made of."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from peenflow import templates
+from peenflow.dem import bodies
+from peenflow.dem.engine import FLUSH, Nozzle, Stream
+from peenflow.dem.liggghts import stl
+from peenflow.dem.liggghts.seeds import prime_seed
+from peenflow.errors import InputError
+
+DECK, DUMP = "deck.in", "contacts.dump"
+COLUMNS = 19  # of the contact dump (see `dump`)
+PACKET = 8  # shots inserted at once, where nothing speaks against it
+LONGEST_PACKET = 25e-3  # m behind the nozzle: keeps the domain small where shots are rare
+SHORTEST_PACKET = 4  # shot diameters: LIGGGHTS wants 3 radii
+DENSEST_STREAM = 0.2  # volume fraction up to which random insertion finds room
+LEAST_DRAWS, SPREAD_OF_DRAWS = 1001, 100_000  # random places drawn before the first shot's
+LEAST_RESTITUTION = 0.05  # LIGGGHTS refuses this and less
+
+
+@dataclass(frozen=True)
+class Packets:
+    """How a nozzle's shots come into the domain: `count` every `every` steps, let go over `window` steps."""
+
+    count: int
+    every: int
+    window: int
+    shots: int  # altogether
+    rate: float  # 1/s, count/(every·dt)
+    velocity: tuple[float, ...]  # m/s, of its components the means and, for a cone, the standard deviations
+
+
+@dataclass(frozen=True)
+class Deck:
+    """Files of a shard's directory, and what its run has to show."""
+
+    files: dict[str, str]  # name → text
+    triangles: dict[str, int]  # mesh → facets, as the log must confirm
+    steps: int
+
+
+def build(stream: Stream, shard: int) -> Deck:
+    """Deck and STL files of shard number `shard`.
+
+    Raises:
+        InputError: a nozzle throws no shot, or more than fit; a restitution LIGGGHTS cannot take.
+        RunError: a facet without area.
+    """
+    _check_restitution(stream)
+    packets = [packets_of(stream, i) for i in range(len(stream.nozzles))]
+    meshes = {"target": stream.walls.triangles}
+    if stream.rod:
+        entry = float(stream.walls.triangles[..., 2].min())
+        meshes["deflector"] = bodies.rod(stream.rod, entry, stream.shot.diameter)
+    walls = tuple(meshes)
+    meshes |= {f"nozzle{i}": bodies.disc(nozzle) for i, nozzle in enumerate(stream.nozzles)}
+    steps = _steps(stream)
+    seeds = [prime_seed(stream.seed, shard, purpose) for purpose in range(2 + len(packets))]
+    deck = templates.environment().get_template(f"liggghts/{DECK}.j2")
+    text = deck.render(
+        stream=stream,
+        walls=walls,
+        packets=packets,
+        box=domain(stream, meshes, packets),
+        skin=2.25 * stream.shot.diameter,
+        dump=DUMP,
+        columns=[f"c_contacts[{column + 1}]" for column in range(COLUMNS)],
+        travel=_travel_steps(stream, steps),
+        steps=steps,
+        thermo=max(1, steps // 200),
+        seeds=seeds,
+        draws=[LEAST_DRAWS + seed % SPREAD_OF_DRAWS for seed in seeds[2:]],
+    )
+    solids = {f"{name}.stl": stl.text(name, triangles) for name, triangles in meshes.items()}
+    return Deck({DECK: text} | solids, {name: len(triangles) for name, triangles in meshes.items()}, steps)
+
+
+def packets_of(stream: Stream, index: int) -> Packets:
+    """How nozzle number `index` throws its shots.
+
+    A packet waits behind the nozzle, spread over the length that the shots fly in its window, and passes the nozzle
+    at the nozzle's velocity.
+    """
+    nozzle, diameter, dt = stream.nozzles[index], stream.shot.diameter, stream.time_step
+    shots = round(nozzle.rate * stream.duration)
+    if shots < 1:
+        raise InputError(
+            f"nozzle {index + 1} throws {nozzle.rate * stream.duration:.2g} shots in exposure.duration "
+            f"({stream.duration:g} s): none at all. Lengthen exposure.duration or raise the nozzle's rate."
+        )
+    _check_density(nozzle, index, diameter)
+    shortest = SHORTEST_PACKET * diameter
+    length = max(min(min(PACKET, shots) * nozzle.speed / nozzle.rate, LONGEST_PACKET), shortest)
+    count = max(1, round(nozzle.rate * length / nozzle.speed))
+    every = math.ceil(max(count / nozzle.rate, shortest / nozzle.speed) / dt)
+    window = min(every, math.ceil(length / (nozzle.speed * dt)))
+    return Packets(count, every, window, shots, count / (every * dt), _velocity(nozzle))
+
+
+def _velocity(nozzle: Nozzle) -> tuple[float, ...]:
+    """Means of the velocity's components and, for a cone, their standard deviations.
+
+    A cone is a normal distribution of the velocity across the direction, its standard deviation speed·tan(cone/2)/2, so
+    that 86 % (1 − e⁻²) of the shots fly within the cone. LIGGGHTS scatters x, y and z independently: for a nozzle not
+    along an axis, the speed scatters too.
+    """
+    mean = nozzle.speed * np.asarray(nozzle.direction)
+    if not nozzle.cone:
+        return tuple(mean.tolist())
+    across = np.sqrt(np.clip(1 - np.square(nozzle.direction), 0, None))
+    return (*mean.tolist(), *(nozzle.speed * math.tan(nozzle.cone / 2) / 2 * across).tolist())
+
+
+def domain(stream: Stream, meshes: dict[str, np.ndarray], packets: list[Packets]) -> list[tuple[float, float]]:
+    """Bounds of x, y and z [m] that hold the walls, the rod's way, and the packets behind the nozzles."""
+    points = [triangles.reshape(-1, 3) for triangles in meshes.values()]
+    if stream.rod and stream.rod.speed:
+        way = np.array([0, 0, stream.rod.stop - stream.rod.start])
+        points.append(meshes["deflector"].reshape(-1, 3) + way)
+    for i, (nozzle, packet) in enumerate(zip(stream.nozzles, packets, strict=True)):
+        length = packet.window * stream.time_step * nozzle.speed
+        points.append(meshes[f"nozzle{i}"].reshape(-1, 3) - length * np.asarray(nozzle.direction))
+    margin = 2e-3 + 4 * stream.shot.diameter
+    every = np.concatenate(points)
+    return list(zip((every.min(axis=0) - margin).tolist(), (every.max(axis=0) + margin).tolist(), strict=True))
+
+
+def _steps(stream: Stream) -> int:
+    """A multiple of the interval, so that the last step is dumped."""
+    return stream.interval * math.ceil((stream.duration + FLUSH) / (stream.interval * stream.time_step))
+
+
+def _travel_steps(stream: Stream, steps: int) -> int:
+    """Steps until the rod stops (0: it does not move)."""
+    if not (stream.rod and stream.rod.speed):
+        return 0
+    return min(steps, round(abs(stream.rod.stop - stream.rod.start) / (stream.rod.speed * stream.time_step)))
+
+
+def _check_restitution(stream: Stream) -> None:
+    given = {"dem.restitution": stream.walls.restitution, "dem.shot_restitution": stream.shot_restitution}
+    for key, value in given.items():
+        if not LEAST_RESTITUTION < value <= 1:
+            raise InputError(
+                f"{key} is {value:g}: LIGGGHTS takes more than {LEAST_RESTITUTION:g} and at most 1. "
+                f"Give {key} as a number in that range."
+            )
+
+
+def _check_density(nozzle: Nozzle, index: int, diameter: float) -> None:
+    fraction = nozzle.rate / nozzle.speed * math.pi / 6 * diameter**3 / (math.pi / 4 * nozzle.diameter**2)
+    if fraction > DENSEST_STREAM:
+        raise InputError(
+            f"nozzle {index + 1} would fill {100 * fraction:.0f} % of its stream with shots; more than "
+            f"{100 * DENSEST_STREAM:.0f} % cannot be placed at random. "
+            "Lower nozzle.rate, or raise its speed or diameter."
+        )

@@ -1,0 +1,63 @@
+"""The engine: up to two shards at once, watched, killed with us."""
+
+import time
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+
+from peenflow.dem.engine import Stream
+from peenflow.dem.liggghts import deck
+from peenflow.dem.liggghts.process import Process, require_tools
+from peenflow.dem.liggghts.shard import Shard
+from peenflow.progress import Progress
+from peenflow.records.contacts import Contacts
+
+AT_ONCE = 2  # serial runs side by side beat MPI on as many cores
+LOOK = 0.1  # s between looks at the runs
+
+
+class Liggghts:
+    """LIGGGHTS-PUBLIC 3.8."""
+
+    def throw(self, stream: Stream, shards: int, directory: Path, progress: Progress) -> list[Contacts]:
+        """See `peenflow.dem.engine.Engine`."""
+        all_shards = [
+            Shard(stream, deck.build(stream, index), directory / f"shard-{index:03d}") for index in range(shards)
+        ]
+        contacts = {shard.directory: shard.finished() for shard in all_shards}
+        missing = [shard for shard in all_shards if contacts[shard.directory] is None]
+        if missing:
+            require_tools()
+        if kept := shards - len(missing):
+            progress.note(f"{kept} of {shards} shards were finished before and are kept")
+        with progress.task("LIGGGHTS steps", sum(shard.deck.steps for shard in missing)) as task:
+            fresh = run_all(missing, task.update)
+        return [contacts[shard.directory] or fresh[shard.directory] for shard in all_shards]
+
+
+def run_all(shards: list[Shard], report: Callable[[float], None]) -> dict[Path, Contacts]:
+    """Run the shards, `AT_ONCE` at a time, telling `report` the steps done; no process outlives this call.
+
+    Raises:
+        RunError: one failed; the others are ended.
+    """
+    waiting, running, done = deque(shards), dict[Path, tuple[Shard, Process]](), 0
+    contacts: dict[Path, Contacts] = {}
+    try:
+        while waiting or running:
+            while waiting and len(running) < AT_ONCE:
+                shard = waiting.popleft()
+                shard.write()
+                running[shard.directory] = (shard, Process(shard.directory))
+            time.sleep(LOOK)
+            for shard, process in list(running.values()):
+                status = process.status()
+                if status is not None:
+                    del running[shard.directory]
+                    contacts[shard.directory] = shard.collect(status)
+                    done += shard.deck.steps
+            report(done + sum(process.step() for _, process in running.values()))
+    finally:
+        for _, process in running.values():
+            process.kill()
+    return contacts

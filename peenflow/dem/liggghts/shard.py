@@ -1,0 +1,118 @@
+"""One shard: its directory, from deck to contacts, kept once finished."""
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+
+from peenflow.dem.engine import SURFACES, Stream
+from peenflow.dem.liggghts import deck as decks
+from peenflow.dem.liggghts import dump, log
+from peenflow.dem.liggghts.process import LOG
+from peenflow.dem.liggghts.restore import Law, restore
+from peenflow.errors import InputError
+from peenflow.files import write_text_whole
+from peenflow.records import hdf5
+from peenflow.records.contacts import Contacts
+from peenflow.records.fields import of
+
+RECORD = "contacts.h5"
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A shard's record: it is there only if the run was whole."""
+
+    contacts: Contacts
+    deck: Annotated[str, of("", "SHA-256 of the deck and the facets it came from")]
+
+
+@dataclass(frozen=True)
+class Shard:
+    """Independent run number `index` of a stream."""
+
+    stream: Stream
+    deck: decks.Deck
+    directory: Path
+
+    @property
+    def digest(self) -> str:
+        """Of all that the run depends on."""
+        whole = hashlib.sha256()
+        for name, text in sorted(self.deck.files.items()):
+            whole.update(f"{name}\n{text}\n".encode())
+        return whole.hexdigest()
+
+    def finished(self) -> Contacts | None:
+        """The contacts of an earlier run of the same deck, if there are any."""
+        try:
+            record = hdf5.load(Finished, self.directory / RECORD)
+        except InputError:  # none, damaged or of another version: all mean that the shard must run
+            return None
+        return record.contacts if record.deck == self.digest else None
+
+    def write(self) -> None:
+        """Deck and facets into the shard's directory."""
+        (self.directory / RECORD).unlink(missing_ok=True)
+        for name, text in self.deck.files.items():
+            write_text_whole(self.directory / name, text)
+
+    def collect(self, status: int) -> Contacts:
+        """Check the run that ended with exit `status`, keep its contacts and remove its dump.
+
+        Raises:
+            RunError: the run was not whole.
+        """
+        told = log.read(self.directory / LOG)
+        log.check(told, self.deck, status, self.directory / LOG)
+        contacts = self._contacts(told)
+        hdf5.save(Finished(contacts, self.digest), self.directory / RECORD)
+        (self.directory / decks.DUMP).unlink()
+        return contacts
+
+    def _contacts(self, told: log.Log) -> Contacts:
+        stream, law = self.stream, Law.of(self.stream.shot, self.stream.walls)
+        read = dump.blocks(self.directory / decks.DUMP, self.deck.steps, stream.interval)
+        parts = [(rows, *restore(rows, law, stream.time_step, stream.interval)) for rows in read]
+
+        def joined(arrays: list[np.ndarray], like: tuple[int, ...], dtype: type) -> np.ndarray:
+            return np.concatenate([np.empty(like, dtype), *arrays])
+
+        step = joined([rows.step for rows, _, _ in parts], (0,), np.int64)
+        number = joined([rows.number for rows, _, _ in parts], (0,), np.int64)
+        return Contacts(
+            t=step * stream.time_step,
+            shot=shot_numbers(told.insertions, step, number),
+            surface=joined([rows.surface for rows, _, _ in parts], (0,), np.int32),
+            facet=joined([rows.facet for rows, _, _ in parts], (0,), np.int32),
+            point=joined([rows.point for rows, _, _ in parts], (0, 3), float),
+            velocity=joined([velocity for _, _, velocity in parts], (0, 3), float),
+            wall_velocity=joined([rows.wall_velocity for rows, _, _ in parts], (0, 3), float),
+            force=joined([force for _, force, _ in parts], (0, 3), float),
+            overlap=joined([rows.overlap for rows, _, _ in parts], (0,), float),
+            diameter=np.full(len(step), stream.shot.diameter),
+            surfaces=SURFACES[: 2 if stream.rod else 1],
+            interval=stream.interval * stream.time_step,
+            duration=self.deck.steps * stream.time_step,
+            shots=sum(insertion.count for insertion in told.insertions),
+            engine=told.version,
+            time_step=stream.time_step,
+        )
+
+
+def shot_numbers(insertions: tuple[log.Insertion, ...], step: np.ndarray, number: np.ndarray) -> np.ndarray:
+    """Shots numbered from 0 in the order of insertion, for rows ordered by step.
+
+    LIGGGHTS gives the number of a shot that has left the domain to a later one; here each keeps its own.
+    """
+    shot = np.empty(len(step), np.int64)
+    owner = np.full(max([number.max(initial=0) + 1, *(i.first + i.count for i in insertions)]), -1)
+    bounds = np.searchsorted(step, [insertion.step for insertion in insertions]).tolist()
+    thrown = 0
+    for insertion, low, high in zip(insertions, bounds, [*bounds[1:], len(step)], strict=True):
+        owner[insertion.first : insertion.first + insertion.count] = thrown + np.arange(insertion.count)
+        thrown += insertion.count
+        shot[low:high] = owner[number[low:high]]
+    return shot

@@ -1,0 +1,111 @@
+"""Tables and paragraphs on the terminal."""
+
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from peenflow.pipeline import Outcome, StageStatus
+
+ERRORS = Console(stderr=True)
+OUTPUT = Console()
+
+# Headline figures: place in summary.json, name, unit, factor
+_HEADLINES = (
+    ("single_shot.cor", "coefficient of restitution", "", 1.0),
+    ("single_shot.peak_force_N", "peak force", "N", 1.0),
+    ("single_shot.contact_time_s", "contact time", "µs", 1e6),
+    ("single_shot.dent_depth_m", "dent depth", "µm", 1e6),
+    ("residual.surface_Pa", "mean residual stress at the surface", "MPa", 1e-6),
+    ("residual.min_Pa", "lowest mean residual stress", "MPa", 1e-6),
+    ("residual.depth_of_min_m", "at depth", "µm", 1e6),
+    ("residual_axis.min_Pa", "lowest under the hardest impact", "MPa", 1e-6),
+    ("coverage.fraction", "coverage", "%", 100.0),
+)
+
+
+def say(text: str) -> None:
+    """Plain text on standard output."""
+    OUTPUT.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+def error(text: str) -> None:
+    """One paragraph on standard error."""
+    ERRORS.print(f"Error: {text}", markup=False, highlight=False, soft_wrap=not ERRORS.is_terminal)
+
+
+def document(content: Mapping[str, Any]) -> None:
+    """JSON on standard output."""
+    sys.stdout.write(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def check(found: Mapping[str, Any]) -> None:
+    """What `check` prints: effects, sizes, costs, warnings (`found` as from `peenflow.estimate.estimate`)."""
+    say(found["title"])
+    effects = _table("effect", "state", "estimate", "threshold", "why")
+    for name, made in found["effects"].items():
+        _row(effects, name, made["state"], _number(made["estimate"], 2), _number(made["threshold"], 2), made["why"])
+    OUTPUT.print(effects)
+    for part in ("fe", "dem"):
+        say(f"{part}: " + ", ".join(f"{name} {_number(value, 4)}" for name, value in found[part].items()))
+    stages = _table("stage", "predicted time, s", "predicted memory, MB")
+    for stage in found["stages"]:
+        memory = _number(stage["predicted_memory_B"] / 1e6, 3)
+        _row(stages, stage["stage"], _number(stage["predicted_wall_s"], 3), memory)
+    OUTPUT.print(stages)
+    for warning in found["warnings"]:
+        say(f"Warning: {warning}")
+
+
+def outcomes(done: Sequence[Outcome], out: Path) -> None:
+    """What became of the stages, and the headline figures."""
+    table = _table("stage", "state", "time, s", "predicted, s")
+    for outcome in done:
+        wall = "" if outcome.state == "skipped" else f"{outcome.cost.wall_s:.1f}"
+        _row(table, outcome.stage, outcome.state, wall, _number(outcome.predicted_wall, 3))
+    OUTPUT.print(table)
+    summary = out / "summary.json"
+    if summary.exists():
+        for line in headlines(json.loads(summary.read_text())):
+            say(line)
+    page = out / "report" / "index.html"
+    say(f"Results: {page if page.exists() else out}")
+
+
+def headlines(summary: Mapping[str, Any]) -> list[str]:
+    """The figures to say at the end of a run, so far as the summary has them."""
+    found = [(name, unit, factor, _at(summary, place)) for place, name, unit, factor in _HEADLINES]
+    return [f"{name}: {value * factor:.4g} {unit}".rstrip() for name, unit, factor, value in found if value is not None]
+
+
+def status(lines: Sequence[StageStatus], out: Path) -> None:
+    """One row a stage."""
+    table = _table("stage", "state", "why")
+    for line in lines:
+        _row(table, line.stage, line.state, line.why)
+    OUTPUT.print(table)
+    say(f"Results: {out}")
+
+
+def _table(*columns: str) -> Table:
+    return Table(*columns, box=None, pad_edge=False, padding=(0, 2, 0, 0))
+
+
+def _row(table: Table, *cells: str) -> None:
+    table.add_row(*(Text(cell) for cell in cells))  # text, lest a case's [brackets] be taken for markup
+
+
+def _number(value: float | None, digits: int) -> str:
+    return "" if value is None else f"{value:.{digits}g}" if isinstance(value, float) else str(value)
+
+
+def _at(tree: Mapping[str, Any], place: str) -> float | None:
+    node: Any = tree
+    for part in place.split("."):
+        node = node.get(part) if isinstance(node, Mapping) else None
+    return None if node is None else float(node)

@@ -1,0 +1,41 @@
+"""What an effect is, and the situation its criterion looks at."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from peenflow.case.model import Case
+from peenflow.dent import Dent
+from peenflow.records.material import Material
+from peenflow.scene import ShotProperties
+
+
+@dataclass(frozen=True)
+class Situation:
+    """Closed forms of the case alone, so that decisions do not change with what happens to be cached (SI)."""
+
+    case: Case
+    shot: ShotProperties
+    material: Material  # with all its terms
+    dent: Dent  # predicted at the case's speed, normal incidence
+    depth: float | None  # of the FE patch; None: there is none
+    flight: float | None  # m, from the nozzle to what the shots meet first; None: nothing flies
+    slant: float  # tangential over normal speed of the hits, the most oblique ones'
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """An effect's share of the result, or None where it does not apply, and why in one line with its numbers."""
+
+    share: float | None
+    why: str
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One physical effect that a scene may call for."""
+
+    name: str
+    stage: str  # in which it acts
+    criterion: str  # formula with units and source
+    cost: str  # what switching it on costs
+    estimate: Callable[[Situation], Estimate]

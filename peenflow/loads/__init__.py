@@ -1,0 +1,1 @@
+"""The `translate` stage: contacts to impacts, impacts to the FE deck."""

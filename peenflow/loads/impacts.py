@@ -1,0 +1,144 @@
+"""Contact rows to impacts: one row a hit, with the velocity before it and the place on the true surface."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from peenflow.case.impacts_csv import ImpactTable
+from peenflow.errors import RunError
+from peenflow.geometry import Surface
+from peenflow.records.contacts import Contacts
+from peenflow.records.impacts import Impacts
+
+TARGET = "target"  # the surface whose hits count; a deflector's do not
+STEPS_APART = 3  # engine steps between two rows that still belong to one impact
+SAMPLES_APART = 1.5  # the same in samples, where the engine writes fewer than one step in three
+
+
+@dataclass(frozen=True)
+class _Hits:
+    """Hits before the slow ones are dropped; (n,) or (n, 3), SI."""
+
+    t: np.ndarray
+    point: np.ndarray
+    velocity: np.ndarray
+    peak_force: np.ndarray
+    diameter: np.ndarray
+    shot: np.ndarray
+
+
+def from_contacts(contacts: Contacts, surface: Surface, min_normal_speed: float) -> Impacts:
+    """Join the rows of one shot on the target that follow each other into impacts, and drop the slow ones.
+
+    Rows of one shot at one time are one sample that touches several facets: their forces add, as the engine adds
+    them. An impact takes its velocity from its first row (of several facets, the one that pushes hardest) and its
+    place from the row of its largest force, put onto the true surface; tensile samples (an engine's damping pulls
+    at separating shots) count as no force.
+
+    Args:
+        contacts: rows of all surfaces.
+        surface: of the target; gives normals and places free of the facets' chords.
+        min_normal_speed: [m/s]; slower approaches leave no dent worth counting.
+
+    Raises:
+        RunError: no row on the target.
+    """
+    rows = _rows_on_target(contacts)
+    if not rows.size:
+        raise RunError(
+            "No shot touched the target. Aim [[nozzle]] at it, lengthen [exposure] duration or mend [deflector] travel."
+        )
+    shot, t = contacts.shot[rows], contacts.t[rows]
+    gap = max(STEPS_APART * contacts.time_step, SAMPLES_APART * contacts.interval) * (1 + 1e-9)
+    starts_impact = _starts(shot, t, gap)
+    starts_sample = starts_impact | _starts(shot, t, 0.0)
+    first = rows[starts_impact]
+    samples = rows[starts_sample]
+    strength = _strength(contacts, surface, rows, starts_sample)
+    hardest = _first_of_largest(strength, (np.cumsum(starts_impact) - 1)[starts_sample])
+    hits = _Hits(
+        t=contacts.t[first],
+        point=contacts.point[samples[hardest]],
+        velocity=contacts.velocity[first],
+        peak_force=strength[hardest],
+        diameter=contacts.diameter[first],
+        shot=contacts.shot[first],
+    )
+    counts = {
+        "rows": len(rows),
+        "merged_rows": len(samples) - len(first),
+        "duplicates_removed": len(rows) - len(samples),
+    }
+    return _sifted(hits, surface, min_normal_speed, counts)
+
+
+def from_table(table: ImpactTable, surface: Surface, diameter: float, min_normal_speed: float) -> Impacts:
+    """Impacts that the case gives; `diameter` [m] where the table has none. Shots are the table's rows from 0."""
+    number = len(table.t)
+    hits = _Hits(
+        t=table.t,
+        point=table.point,
+        velocity=table.velocity,
+        peak_force=np.full(number, np.nan),
+        diameter=np.full(number, diameter) if table.diameter is None else table.diameter,
+        shot=np.arange(number),
+    )
+    return _sifted(hits, surface, min_normal_speed, {"rows": number, "merged_rows": 0, "duplicates_removed": 0})
+
+
+def _rows_on_target(contacts: Contacts) -> np.ndarray:
+    """Row numbers by shot, then time, then falling force."""
+    rows = np.flatnonzero(contacts.surface == contacts.surfaces.index(TARGET))
+    force = np.linalg.norm(contacts.force[rows], axis=1)
+    order: np.ndarray = rows[np.lexsort((-force, contacts.t[rows], contacts.shot[rows]))]
+    return order
+
+
+def _starts(shot: np.ndarray, t: np.ndarray, gap: float) -> np.ndarray:
+    """Whether a row is another shot's than the row before, or more than `gap` later."""
+    return np.concatenate([[True], (np.diff(shot) != 0) | (np.diff(t) > gap)])
+
+
+def _strength(contacts: Contacts, surface: Surface, rows: np.ndarray, starts_sample: np.ndarray) -> np.ndarray:
+    """Force of each sample [N], facets summed; 0 where it pulls the shot to the wall."""
+    starts = np.flatnonzero(starts_sample)
+    force = np.add.reduceat(contacts.force[rows], starts, axis=0)
+    push = np.einsum("ij,ij->i", force, surface.normals(contacts.point[rows[starts]]))
+    return np.where(push > 0, np.linalg.norm(force, axis=1), 0.0)
+
+
+def _first_of_largest(values: np.ndarray, owner: np.ndarray) -> np.ndarray:
+    """Index of the first largest value of each owner 0, 1, …; `owner` rises."""
+    order = np.lexsort((-values, owner))
+    return order[np.searchsorted(owner, np.arange(owner[-1] + 1))]
+
+
+def _sifted(hits: _Hits, surface: Surface, min_normal_speed: float, counts: dict[str, int]) -> Impacts:
+    """Hits that approach the true surface fast enough, by time; their place on the patch is still open."""
+    point = surface.on_surface(surface.unroll(hits.point))
+    normal = surface.normals(point)
+    normal_speed = -np.einsum("ij,ij->i", hits.velocity, normal)
+    hard = np.flatnonzero((normal_speed >= min_normal_speed) & (normal_speed > 0))
+    kept = hard[np.argsort(hits.t[hard], kind="stable")]
+    speed = np.linalg.norm(hits.velocity[kept], axis=1)
+    return Impacts(
+        t=hits.t[kept],
+        point=point[kept],
+        velocity=hits.velocity[kept],
+        normal=normal[kept],
+        normal_speed=normal_speed[kept],
+        angle=np.arcsin(np.minimum(normal_speed[kept] / speed, 1.0)),
+        peak_force=hits.peak_force[kept],
+        diameter=hits.diameter[kept],
+        shot=hits.shot[kept].astype(np.int64),
+        on_patch=np.zeros(len(kept), bool),
+        group=np.full(len(kept), -1, np.int32),
+        t_start=np.full(len(kept), np.nan),
+        rows=counts["rows"],
+        merged_rows=counts["merged_rows"],
+        duplicates_removed=counts["duplicates_removed"],
+        slow_dropped=len(hits.t) - len(kept),
+        min_normal_speed=min_normal_speed,
+        shots_hitting=len(np.unique(hits.shot)),
+        groups=0,
+    )

@@ -1,0 +1,205 @@
+"""The `translate` stage: from contacts, or given impacts, to the FE deck of the patch."""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from peenflow.case.impacts_csv import ImpactTable, read_impacts
+from peenflow.case.patch_centre import stated_centre
+from peenflow.errors import RunError
+from peenflow.geometry import BoltHole, Surface
+from peenflow.loads.deck import far_field, rollers
+from peenflow.loads.groups import groups
+from peenflow.loads.impacts import from_contacts, from_table
+from peenflow.loads.placement import densest, on_patch
+from peenflow.loads.pressure import pressure_loads
+from peenflow.loads.spheres import spheres
+from peenflow.progress import Progress
+from peenflow.records import hdf5
+from peenflow.records.calibration import Calibration
+from peenflow.records.contacts import Contacts
+from peenflow.records.deck import Controls, Deck, Placement
+from peenflow.records.deck_files import load_deck, save_deck
+from peenflow.records.impacts import Impacts
+from peenflow.records.material import Material
+from peenflow.records.target import Patch
+from peenflow.records.translation import Translation
+from peenflow.records.upstream import Upstream
+from peenflow.scene import Scene, Skip
+
+GROUP_INTERVAL = 3.0  # contact times between two groups: one for the hit, two for its waves to leave
+AFTER_LAST = 3.0  # contact times after the last group's start
+RELAXATION_TIME = 20.0  # times a shear wave crosses the depth; dynamic relaxation needs several
+MARGIN = 1.0  # predicted dent radii between an impact and the patch's edge
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """SI."""
+
+    title: str
+    hits: Contacts | ImpactTable
+    patch: Patch
+    surface: Surface
+    size: tuple[float, float]  # of the patch
+    centre: tuple[float, float] | None  # None: where most hard impacts fall
+    shot_diameter: float
+    shot_density: float
+    friction: float  # between sphere and patch; 0: the effect is off
+    material: Material
+    dent_radius: float
+    contact_time: float
+    min_normal_speed: float
+    group_distance: float | None
+    load: Literal["impact", "pressure"]
+    calibration: Calibration | None  # for pressure loads only
+    sides: Literal["symmetric", "free"]
+    boundary: Literal["far-field", "fixed"]
+    time_step: float
+    relaxation: float
+
+
+def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
+    """What the deck depends on.
+
+    Raises:
+        InputError: the table of impacts cannot be read.
+    """
+    case, knobs, size = scene.case, scene.knobs, scene.case.target.patch
+    if scene.surface is None or size is None or upstream.target is None:
+        return Skip("a single shot has no impacts to translate")
+    given = case.impacts
+    hits = read_impacts(scene.directory / given.file, scene.surface) if given else upstream.contacts
+    if hits is None:
+        return Skip("there are no contacts")
+    across = size.arc if isinstance(scene.surface, BoltHole) else size.width
+    return Inputs(
+        title=case.title,
+        hits=hits,
+        patch=upstream.target.patch,
+        surface=scene.surface,
+        size=(size.length, across if across is not None else size.length),
+        centre=stated_centre(case),
+        shot_diameter=scene.shot.diameter,
+        shot_density=scene.shot.density,
+        friction=case.dem.friction if scene.effects["contact_friction"].on else 0.0,
+        material=scene.material,
+        dent_radius=scene.dent_radius,
+        contact_time=scene.contact_time,
+        min_normal_speed=knobs.min_normal_speed,
+        group_distance=knobs.group_distance,
+        load=knobs.load,
+        calibration=upstream.calibration if knobs.load == "pressure" else None,
+        sides=knobs.sides,
+        boundary=knobs.boundary,
+        time_step=knobs.time_step,
+        relaxation=knobs.relaxation,
+    )
+
+
+def run(inputs: Inputs, workdir: Path, progress: Progress) -> Translation:
+    """Translate, and write `impacts.h5` and the deck in `fe/`.
+
+    Raises:
+        RunError: no impact on the target, or none on the patch, is hard enough to count.
+    """
+    with progress.task("translating", 3) as bar:
+        impacts = _impacts(inputs)
+        bar.update(1)
+        placement, impacts = _placed(inputs, impacts)
+        bar.update(2)
+        translation = Translation(impacts, _deck(inputs, impacts, placement))
+        hdf5.save(impacts, workdir / "impacts.h5")
+        save_deck(translation.deck, workdir / "fe")
+        bar.update(3)
+    progress.note(
+        f"{len(impacts.t)} impacts from {impacts.rows} rows ({impacts.slow_dropped} slower than "
+        f"{impacts.min_normal_speed:.3g} m/s dropped), {int(impacts.on_patch.sum())} on the patch in "
+        f"{impacts.groups} groups"
+    )
+    return translation
+
+
+def load(workdir: Path) -> Translation:
+    """The record `run` left.
+
+    Raises:
+        InputError: a file is missing or damaged.
+    """
+    return Translation(hdf5.load(Impacts, workdir / "impacts.h5"), load_deck(workdir / "fe"))
+
+
+def _impacts(inputs: Inputs) -> Impacts:
+    if isinstance(inputs.hits, ImpactTable):
+        impacts = from_table(inputs.hits, inputs.surface, inputs.shot_diameter, inputs.min_normal_speed)
+    else:
+        impacts = from_contacts(inputs.hits, inputs.surface, inputs.min_normal_speed)
+    if not len(impacts.t):
+        raise RunError(
+            f"All {impacts.slow_dropped} impacts on the target are slower than {inputs.min_normal_speed:.3g} m/s along "
+            "the surface's normal, and would leave no dent worth counting. Lower [accuracy] min_normal_speed, or "
+            "shoot faster or steeper."
+        )
+    return impacts
+
+
+def _placed(inputs: Inputs, impacts: Impacts) -> tuple[Placement, Impacts]:
+    """Where the patch lies, and the impacts with those on it grouped and given their start times."""
+    surface, size = inputs.surface, inputs.size
+    centre = densest(impacts, surface, size) if inputs.centre is None else np.array(inputs.centre)
+    borne = on_patch(impacts, surface, centre, size, MARGIN * inputs.dent_radius)
+    if not borne.any():
+        raise RunError(
+            f"None of the {len(impacts.t)} impacts falls on the FE patch, centred {centre[0] * 1e3:.4g} mm along axis "
+            f"1 and {centre[1] * 1e3:.4g} mm along axis 2. Lengthen [exposure] duration, enlarge [target] patch, or "
+            'move it: patch.at = "densest".'
+        )
+    group, t_start = impacts.group.copy(), impacts.t_start.copy()
+    group[borne], t_start[borne] = _turns(inputs, impacts, borne)
+    placed = dataclasses.replace(impacts, on_patch=borne, group=group, t_start=t_start, groups=int(group.max()) + 1)
+    return surface.placement(centre), placed
+
+
+def _turns(inputs: Inputs, impacts: Impacts, borne: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Groups and start times [s] of the impacts on the patch; ungrouped ones keep their own times from the first."""
+    if inputs.group_distance is None:
+        own = impacts.t[borne] - impacts.t[borne].min()
+        return np.unique(own, return_inverse=True)[1], own
+    uv = inputs.surface.unroll(impacts.point[borne])
+    group = groups(uv, impacts.diameter[borne], inputs.surface, inputs.group_distance)
+    return group, group * GROUP_INTERVAL * inputs.contact_time
+
+
+def _deck(inputs: Inputs, impacts: Impacts, placement: Placement) -> Deck:
+    far = far_field(inputs.patch)
+    pressures = None
+    if inputs.load == "pressure":
+        if inputs.calibration is None:
+            raise RunError('[accuracy] load = "pressure" needs the calibration. Run the stage `calibrate` first.')
+        pressures = pressure_loads(impacts, placement, inputs.patch, inputs.calibration)
+    by_sphere = inputs.load == "impact"
+    return Deck(
+        controls=_controls(inputs, impacts, far.distance),
+        patch=inputs.patch,
+        placement=placement,
+        material=inputs.material,
+        rollers=rollers(inputs.patch, inputs.sides == "symmetric", inputs.boundary == "fixed"),
+        far_fields=(far,) if inputs.boundary == "far-field" else (),
+        spheres=spheres(impacts, placement, inputs.shot_density, inputs.friction) if by_sphere else None,
+        pressures=pressures,
+    )
+
+
+def _controls(inputs: Inputs, impacts: Impacts, depth: float) -> Controls:
+    last_start = float(impacts.t_start[impacts.on_patch].max())
+    return Controls(
+        title=inputs.title,
+        end_time=last_start + AFTER_LAST * inputs.contact_time,
+        time_step_share=inputs.time_step,
+        relaxation=inputs.relaxation,
+        relaxation_time=RELAXATION_TIME * depth / inputs.material.c_s,
+        checkpoint_steps=500,
+    )

@@ -1,0 +1,100 @@
+"""Target materials: the library's row, with what the case overwrites, as the solver takes it."""
+
+import difflib
+import tomllib
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from peenflow.case.model import Constants, JohnsonCookConstants
+from peenflow.errors import InputError
+from peenflow.records.material import Material, RateHardening, ThermalSoftening
+
+ROOM = 293.15  # K, T0 of sets that name none
+TAYLOR_QUINNEY = 0.9  # of metals at high rates, as in Johnson and Cook (1983)
+REFERENCE_RATE = 1.0  # 1/s, as there
+
+
+@cache
+def table() -> dict[str, dict[str, Any]]:
+    """The rows of library.toml by name, quantities as strings with units."""
+    return tomllib.loads(files("peenflow.materials").joinpath("library.toml").read_text(encoding="utf-8"))
+
+
+def nearest(name: str, known: list[str]) -> str:
+    """What to offer instead of an unknown name: the nearest ones, or all of them."""
+    proper = {one.lower(): one for one in known}
+    close = [proper[one] for one in difflib.get_close_matches(name.lower(), list(proper), n=3, cutoff=0.5)]
+    return f"did you mean {' or '.join(close)}?" if close else f"known: {', '.join(known)}"
+
+
+def material(name: str, constants: Constants, johnson_cook: JohnsonCookConstants, initial: float = ROOM) -> Material:
+    """The material `name` with all its effects, the case's constants over the library's.
+
+    A name the library does not know is a set of the case's own, if the case brings density, young, poisson, A, B, n.
+    The rate term is None where C is 0 or unknown, the thermal term where m, melt or heat_capacity are unknown.
+
+    Args:
+        name: of the set.
+        constants: the case's own elastic and thermal constants.
+        johnson_cook: the case's own Johnson–Cook constants.
+        initial: temperature of the part before peening [K].
+
+    Raises:
+        InputError: an unknown name without constants of its own, or constants that are missing.
+    """
+    row = table().get(name, {})
+    elastic = _merged(Constants, {key: row[key] for key in Constants.model_fields if key in row}, constants)
+    plastic = _merged(JohnsonCookConstants, row.get("johnson_cook", {}), johnson_cook)
+    _require_complete(name, elastic, plastic)
+    return Material(
+        name=name,
+        density=elastic["density"],
+        young=elastic["young"],
+        poisson=elastic["poisson"],
+        A=plastic["A"],
+        B=plastic["B"],
+        n=plastic["n"],
+        rate=_rate(plastic),
+        thermal=_thermal(elastic, plastic, initial),
+    )
+
+
+def _merged(
+    model: type[Constants] | type[JohnsonCookConstants],
+    row: dict[str, Any],
+    own: Constants | JohnsonCookConstants,
+) -> dict[str, float]:
+    """The row in SI with what `own` sets in its place; constants that neither has are left out."""
+    return model.model_validate(row).model_dump(exclude_none=True) | own.model_dump(exclude_none=True)
+
+
+def _require_complete(name: str, elastic: dict[str, float], plastic: dict[str, float]) -> None:
+    missing = [f"target.constants.{key}" for key in ("density", "young", "poisson") if key not in elastic]
+    missing += [f"target.johnson_cook.{key}" for key in ("A", "B", "n") if key not in plastic]
+    if not missing:
+        return
+    if name not in table():
+        raise InputError(
+            f"unknown material {name!r}; {nearest(name, list(table()))} (a set of your own needs {', '.join(missing)})"
+        )
+    raise InputError(f"{name!r} has no constants of plasticity; give {', '.join(missing)}")
+
+
+def _rate(plastic: dict[str, float]) -> RateHardening | None:
+    if plastic.get("C", 0.0) == 0.0:
+        return None
+    return RateHardening(C=plastic["C"], reference_rate=plastic.get("reference_rate", REFERENCE_RATE))
+
+
+def _thermal(elastic: dict[str, float], plastic: dict[str, float], initial: float) -> ThermalSoftening | None:
+    if not ("m" in plastic and "melt" in plastic and "heat_capacity" in elastic):
+        return None
+    return ThermalSoftening(
+        m=plastic["m"],
+        room=plastic.get("room", ROOM),
+        melt=plastic["melt"],
+        heat_capacity=elastic["heat_capacity"],
+        taylor_quinney=elastic.get("taylor_quinney", TAYLOR_QUINNEY),
+        initial=initial,
+    )

@@ -1,0 +1,1 @@
+"""The `mesh` stage: hexahedra of the FE patch and facets for DEM."""

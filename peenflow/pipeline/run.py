@@ -1,0 +1,99 @@
+"""Running the stages that are not up to date, one after another."""
+
+import dataclasses
+from pathlib import Path
+
+from peenflow.case.model import Case
+from peenflow.console import Console
+from peenflow.errors import InputError
+from peenflow.estimate import estimate
+from peenflow.pipeline import summary
+from peenflow.pipeline.execute import Outcome, settle, stoppable
+from peenflow.pipeline.freshness import Finding, assess, examine
+from peenflow.pipeline.lock import locked
+from peenflow.pipeline.stages import STAGES, Records, stage
+from peenflow.pipeline.status import status
+from peenflow.records.deck_files import load_deck
+from peenflow.resolve import resolve
+from peenflow.scene import Skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Request:
+    """What to run."""
+
+    case: Case
+    directory: Path  # where the case lies
+    out: Path
+    first: str | None = None  # run from this stage on even where results are up to date
+    last: str | None = None  # stop after this stage
+
+    def __post_init__(self) -> None:
+        """Raise InputError if `first` or `last` is no stage."""
+        for name in (self.first, self.last):
+            if name is not None:
+                stage(name)
+
+
+def run(request: Request, console: Console) -> list[Outcome]:
+    """Bring the results in `request.out` up to date.
+
+    Raises:
+        InputError, RunError: from a stage; its reason is kept for `status`.
+        StoppedError: by Ctrl-C or SIGTERM.
+    """
+    forced = STAGES[STAGES.index(stage(request.first)) :] if request.first else ()
+    wanted = STAGES[: STAGES.index(stage(request.last)) + 1] if request.last else STAGES
+    scene = resolve(request.case, request.directory)
+    found = estimate(scene)
+    predicted = {row["stage"]: row["predicted_wall_s"] for row in found["stages"]}
+    records, outcomes = Records(request.out), list[Outcome]()
+    with locked(request.out), stoppable():
+        summary.write_effective_case(scene, request.out)
+        for each in wanted:
+            finding = examine(each, scene, records, request.out)
+            if each in forced and finding.fresh:
+                finding = dataclasses.replace(finding, why="asked for", last=None)
+            outcome = _settle(finding, outcomes, request, console)
+            outcomes.append(dataclasses.replace(outcome, predicted_wall=predicted.get(each.name)))
+            if outcome.state != "skipped":
+                records.add(each)
+        if wanted == STAGES:
+            summary.write(scene, found["effects"], records, outcomes, request.out)
+    return outcomes
+
+
+def solve_deck(folder: Path, out: Path, console: Console) -> Outcome:
+    """The `solve` stage alone, from the deck (`deck.toml`, `deck.h5`) in `folder`; raises as `run`.
+
+    Raises:
+        InputError: the deck is missing or damaged.
+    """
+    each, deck = stage("solve"), load_deck(folder)
+    inputs = each.module().Inputs(deck=deck)
+    with locked(out), stoppable():
+        return settle(assess(each, inputs, out), out, console)
+
+
+def report_again(request: Request, console: Console) -> list[Outcome]:
+    """The pages again, from results that are up to date; raises as `run`.
+
+    Raises:
+        InputError: they are not.
+    """
+    behind = [line for line in status(request.case, request.directory, request.out)[:-1] if line.unfinished]
+    if behind:
+        raise InputError(
+            f"{request.out} has no finished results of this case to report on: {behind[0].stage} is "
+            f"{behind[0].state} ({behind[0].why}). Use `peenflow run` to bring them up to date."
+        )
+    return run(dataclasses.replace(request, first="report"), console)
+
+
+def _settle(finding: Finding, before: list[Outcome], request: Request, console: Console) -> Outcome:
+    if not finding.fresh:
+        (request.out / "summary.json").unlink(missing_ok=True)  # it must not look as if this run had finished
+    if not isinstance(finding.inputs, Skip) and hasattr(finding.inputs, "ledger"):
+        inputs = dataclasses.replace(finding.inputs, ledger=tuple(summary.ledger(before)))
+        finding = dataclasses.replace(finding, inputs=inputs)
+    return settle(finding, request.out, console)

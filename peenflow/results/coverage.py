@@ -1,0 +1,76 @@
+"""How much of the patch is dented, counted and by Avrami's law."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from peenflow.records.calibration import Calibration
+
+FULL = 0.98  # what the trade calls full coverage (SAE J2277)
+RASTER = 400  # points along each side of the patch
+
+
+@dataclass(frozen=True)
+class DentLaw:
+    """Radius of a dent by normal speed: a table, beyond whose ends a ∝ √v.
+
+    Outside the table the shot's energy goes into a dent of one pressure and volume ∝ a⁴/d, hence a ∝ √v. Shots of
+    another size leave dents in proportion to their diameter (the same speed gives the same strains).
+    """
+
+    speed: np.ndarray  # m/s, rising, (k,)
+    radius: np.ndarray  # m, (k,)
+    diameter: float  # m, the shot of the table
+
+    def __call__(self, normal_speed: np.ndarray, diameter: np.ndarray) -> np.ndarray:
+        """Dent radii (n,) [m] of shots of `diameter` (n,) [m] at `normal_speed` (n,) [m/s]."""
+        nearest = np.clip(normal_speed, self.speed[0], self.speed[-1])
+        radius = np.interp(nearest, self.speed, self.radius) * np.sqrt(normal_speed / nearest)
+        scaled: np.ndarray = radius * diameter / self.diameter
+        return scaled
+
+
+def calibrated_dents(calibration: Calibration) -> DentLaw:
+    """The dents that the calibration found, by speed."""
+    speed = np.array([hit.speed for hit in calibration.speeds])
+    radius = np.array([hit.dent_diameter / 2 for hit in calibration.speeds])
+    return DentLaw(speed, radius, calibration.shot_diameter)
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """Coverage of the patch."""
+
+    fraction: float  # of its area that lies within a dent, counted on a raster
+    avrami: float  # the same expected of dents thrown at random: 1 − exp(−Σπa²/S)
+    full_at: float | None  # s, time to 98 % at this rate by Avrami; None: no rate known, or no dents
+
+
+def covered(points: np.ndarray, radii: np.ndarray, low: np.ndarray, high: np.ndarray) -> float:
+    """Share of the rectangle low…high (2,) [m] within one of the discs of `radii` (n,) [m] at `points` (n, 2)."""
+    axes = [lo + (np.arange(RASTER) + 0.5) / RASTER * (hi - lo) for lo, hi in zip(low, high, strict=True)]
+    dented = np.zeros((RASTER, RASTER), bool)
+    for (u, v), radius in zip(points, radii, strict=True):
+        rows = slice(*np.searchsorted(axes[0], [u - radius, u + radius]))
+        columns = slice(*np.searchsorted(axes[1], [v - radius, v + radius]))
+        dented[rows, columns] |= (axes[0][rows, None] - u) ** 2 + (axes[1][None, columns] - v) ** 2 <= radius**2
+    return float(dented.mean())
+
+
+def coverage(
+    points: np.ndarray, radii: np.ndarray, low: np.ndarray, high: np.ndarray, exposure: float | None
+) -> Coverage:
+    """Coverage of the rectangle low…high (2,) [m] by dents of `radii` (n,) [m] at surface coordinates (n, 2) [m].
+
+    Dents from outside count as far as they reach in; Avrami's law takes those whose centre lies inside, which is
+    the same in the mean. `exposure` [s] is the time in which they came.
+    Source: Avrami; SAE J2277 for what is full.
+    """
+    inside = ((points >= low) & (points <= high)).all(axis=1)
+    thickness = float(np.pi * np.sum(radii[inside] ** 2) / np.prod(high - low))
+    full_at = exposure * -np.log(1 - FULL) / thickness if exposure and thickness else None
+    return Coverage(
+        fraction=covered(points, radii, low, high),
+        avrami=float(-np.expm1(-thickness)),
+        full_at=None if full_at is None else float(full_at),
+    )

@@ -1,0 +1,87 @@
+"""What the peened patch amounts to: profiles, coverage, roughness, and the figures of `summary.json`."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from peenflow.geometry import Surface
+from peenflow.records.deck import Placement
+from peenflow.records.impacts import Impacts
+from peenflow.records.response import Response
+from peenflow.records.target import Patch
+from peenflow.results import figures, profiles
+from peenflow.results.coverage import Coverage, DentLaw, coverage
+from peenflow.results.profiles import Profile, Square
+from peenflow.results.roughness import Roughness, roughness
+from peenflow.results.stream import Stream
+
+
+@dataclass(frozen=True)
+class Peening:
+    """The patch, what hit it and what became of it."""
+
+    surface: Surface
+    patch: Patch
+    placement: Placement
+    impacts: Impacts
+    response: Response
+    stream: Stream | None  # None: the case gave its impacts
+    exposure: float | None  # s, of shooting; likewise
+    sides: str  # symmetric | free
+
+    def uv(self) -> np.ndarray:
+        """Where the impacts hit (n, 2) [m]: surface coordinates from the patch's centre."""
+        return self.surface.separation(self.surface.unroll(self.impacts.point), self.centre())
+
+    def centre(self) -> np.ndarray:
+        """Surface coordinates (2,) [m] of the patch's centre."""
+        return self.surface.unroll(self.placement.origin)
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """The answer, in numbers."""
+
+    square: Square
+    mean: Profile
+    axis: Profile | None  # None: nothing hit the patch
+    dent_radius: np.ndarray  # m, of every impact, (n,)
+    coverage: Coverage
+    roughness: Roughness
+
+
+def evaluate(peening: Peening, area: float | None, shot_diameter: float, dents: DentLaw) -> Evaluation:
+    """Evaluate over the square of side `area` [m] (None: the default rule).
+
+    Raises:
+        InputError: the square does not fit the patch.
+    """
+    patch, response, impacts = peening.patch, peening.response, peening.impacts
+    square = profiles.evaluation_square(patch, area, shot_diameter)
+    points, hardest = peening.uv(), profiles.hardest(impacts)
+    radii = dents(impacts.normal_speed, impacts.diameter)
+    under = None if hardest is None else profiles.below(patch, points[hardest])
+    return Evaluation(
+        square=square,
+        mean=profiles.weighted(patch, response, profiles.overlap(patch, square)),
+        axis=None if under is None else profiles.weighted(patch, response, under),
+        dent_radius=radii,
+        coverage=coverage(points, radii, *profiles.extent(patch), peening.exposure),
+        roughness=roughness(patch, response.displacement, square),
+    )
+
+
+def peening_figures(peening: Peening, evaluation: Evaluation) -> figures.Figures:
+    """`dem`, `impacts`, `fe`, `residual`, `residual_axis`, `coverage` and `roughness`, as they apply."""
+    found = {
+        "impacts": figures.impact_figures(peening.impacts),
+        "fe": figures.patch_fe_figures(peening.response, peening.patch),
+        "residual": figures.residual_figures(profiles.residual(evaluation.mean)) | {"area_m": evaluation.square.side},
+        "coverage": figures.coverage_figures(evaluation.coverage),
+        "roughness": figures.roughness_figures(evaluation.roughness),
+    }
+    if peening.stream is not None:
+        found["dem"] = figures.dem_figures(peening.stream, peening.impacts)
+    if evaluation.axis is not None:
+        found["residual_axis"] = figures.residual_figures(profiles.residual(evaluation.axis))
+    return found

@@ -1,0 +1,128 @@
+"""The peened surface in space, drawn off-screen.
+
+Run as a module (`python -m peenflow.results.render VTU PNG VIEW`) it draws one picture: VTK ends the process where it
+finds no way to draw, and that must not end a run whose numbers are all there.
+"""
+
+import json
+import math
+import os
+import subprocess
+import sys
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from peenflow.files import written_whole
+from peenflow.records.deck import Placement
+from peenflow.results.units import Unit
+
+SIZE = (1600, 1000)  # pixels
+TIME_LIMIT = 300  # s
+RISE = 0.1  # of the patch's width: how high the magnified displacement may stand
+SPREAD = 99  # percentile of |stress| at which the colours end: single elements do not set the scale
+BAR = {
+    "vertical": True,
+    "position_x": 0.87,
+    "position_y": 0.2,
+    "height": 0.6,
+    "width": 0.06,
+    "color": "black",
+    "title_font_size": 26,
+    "label_font_size": 24,
+    "font_family": "arial",
+    "fmt": "%.4g",
+    "n_labels": 5,
+}
+
+
+@dataclass(frozen=True)
+class View:
+    """How to look at the patch."""
+
+    magnification: float  # of the displacement
+    centre: tuple[float, ...]  # m, part's frame: the patch's centre on the surface
+    normal: tuple[float, ...]  # out of the metal there
+    axis_1: tuple[float, ...]
+    width: float  # m, of what must be seen
+    stress_unit: str
+    stress_factor: float  # from Pa to it
+
+
+def view(placement: Placement, displacement: np.ndarray, width: float, stress: Unit) -> View:
+    """The view on a patch of `width` [m] whose nodes moved by `displacement` (n, 3) [m]."""
+    return View(
+        magnification=magnification(float(np.linalg.norm(displacement, axis=1).max()), width),
+        centre=tuple(placement.origin.tolist()),
+        normal=tuple(placement.rotation[:, 2].tolist()),
+        axis_1=tuple(placement.rotation[:, 0].tolist()),
+        width=width,
+        stress_unit=stress.name,
+        stress_factor=stress.factor,
+    )
+
+
+def magnification(largest: float, width: float) -> float:
+    """The largest of 1, 2, 5, 10, … that keeps `largest` [m] below its share of `width` [m]."""
+    if largest <= 0:
+        return 1.0
+    bound = max(1.0, RISE * width / largest)
+    steps = np.array([1.0, 2.0, 5.0]) * 10 ** np.floor(np.log10(bound))
+    return float(steps[steps <= bound].max())
+
+
+def rounded_up(value: float) -> float:
+    """The next multiple of half the power of ten below `value`; 1 for 0."""
+    step = 10 ** math.floor(math.log10(value)) / 2 if value > 0 else 1.0
+    return max(1, math.ceil(value / step)) * step
+
+
+def render(vtu: Path, picture: Path, seen: View) -> str | None:
+    """Draw the patch in `vtu` as the PNG `picture`, in a process of its own; None, or why it could not be drawn."""
+    picture.unlink(missing_ok=True)
+    command = [sys.executable, "-m", "peenflow.results.render", str(vtu), str(picture), json.dumps(asdict(seen))]
+    # without an X server VTK's default window warns before it turns to EGL
+    window = {} if "DISPLAY" in os.environ else {"VTK_DEFAULT_OPENGL_WINDOW": "vtkEGLRenderWindow"}
+    try:
+        child = subprocess.run(
+            command, capture_output=True, text=True, timeout=TIME_LIMIT, env=os.environ | window, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return f"drawing took more than {TIME_LIMIT} s"
+    if child.returncode == 0 and picture.is_file():
+        return None
+    said = child.stderr.strip().splitlines()
+    return f"VTK ended with status {child.returncode}" + (f" ({said[-1]})" if said else "")
+
+
+def draw(vtu: Path, picture: Path, seen: View) -> None:
+    """Draw in this process: displacement magnified, the sides show the stress below the surface."""
+    import pyvista  # only the drawing process pays the second that VTK takes to load
+    from matplotlib.image import imsave
+
+    mesh = pyvista.read(vtu)
+    title = f"(S11+S22)/2 [{seen.stress_unit}]\n"
+    mesh.cell_data[title] = (mesh.cell_data["S11"] + mesh.cell_data["S22"]) / 2 * seen.stress_factor
+    bound = rounded_up(float(np.percentile(np.abs(mesh.cell_data[title]), SPREAD)))
+    shape = mesh.warp_by_vector("displacement", factor=seen.magnification).extract_surface(algorithm="dataset_surface")
+    plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(SIZE))  # Any: its decorators hide its types
+    plotter.background_color = "white"
+    plotter.add_mesh(
+        shape, scalars=title, cmap="RdBu_r", clim=(-bound, bound), ambient=0.45, diffuse=0.6, scalar_bar_args=BAR
+    )
+    normal, axis_1 = np.array(seen.normal), np.array(seen.axis_1)
+    towards = normal - np.cross(normal, axis_1) + 0.45 * axis_1
+    plotter.camera.parallel_projection = True
+    plotter.camera_position = [np.array(seen.centre) + seen.width * towards, seen.centre, normal]
+    plotter.reset_camera()
+    plotter.camera.zoom(1.12)
+    plotter.camera.SetWindowCenter(0.1, 0)  # leaves the right to the scalar bar
+    image = np.asarray(plotter.screenshot(return_img=True))
+    with written_whole(picture) as partial:
+        imsave(partial, image, format="png")
+
+
+if __name__ == "__main__":
+    draw(Path(sys.argv[1]), Path(sys.argv[2]), View(**json.loads(sys.argv[3])))

@@ -1,0 +1,199 @@
+"""The command line as a user meets it: exit status, standard output and error, files."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PLATE = ROOT / "cases" / "plate"
+COARSE = ("--set", "accuracy.mesh_size=0.1 mm", "--set", "target.patch.length=0.5 mm")
+
+
+def peenflow(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "peenflow", *map(str, arguments)]
+    env = os.environ | {"PYTHONPATH": str(ROOT), "COLUMNS": "200"} | environment
+    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT, env=env)
+
+
+def one_paragraph(text: str) -> bool:
+    return text.startswith("Error: ") and text.count("\n") == 1 and "Traceback" not in text
+
+
+def mesh(out: Path, *more: str) -> subprocess.CompletedProcess[str]:
+    return peenflow("run", PLATE, "--out", out, "--until", "mesh", *COARSE, *more)
+
+
+def test_a_stage_runs_once_and_status_says_so(tmp_path: Path):
+    first = mesh(tmp_path)
+    assert (first.returncode, first.stderr.splitlines()[0]) == (0, "mesh: started, first run")
+    again = mesh(tmp_path)
+    assert (again.returncode, again.stderr) == (0, "mesh: up to date\n")
+    told = peenflow("status", PLATE, "--out", tmp_path, *COARSE)
+    assert told.returncode == 0
+    assert told.stdout.splitlines()[1].split()[:2] == ["mesh", "done"]
+    assert "mesh: done" in (tmp_path / "log.txt").read_text()
+    assert json.loads((tmp_path / "case_effective.json").read_text())["knobs"]["mesh_size"] == 1e-4
+
+
+def test_status_names_what_changed(tmp_path: Path):
+    mesh(tmp_path)
+    told = peenflow("status", PLATE, "--out", tmp_path, *COARSE, "--set", "accuracy.mesh_size=0.05 mm")
+    assert "mesh       stale    mesh_size changed from 0.0001 to 5e-05" in told.stdout
+    assert "dem        not run  mesh comes first" in told.stdout
+
+
+def test_a_truncated_result_is_made_again(tmp_path: Path):
+    mesh(tmp_path)
+    (tmp_path / "target.h5").write_bytes((tmp_path / "target.h5").read_bytes()[:64])
+    again = mesh(tmp_path)
+    assert again.returncode == 0
+    assert "mesh: started, target.h5 has 64 bytes instead of" in again.stderr
+
+
+def test_from_runs_a_stage_that_is_up_to_date(tmp_path: Path):
+    mesh(tmp_path)
+    assert "mesh: started, asked for" in mesh(tmp_path, "--from", "mesh").stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("run", PLATE, "--from", "nope"), "There is no stage 'nope'"),
+        (("run", PLATE, "--set", "shot.diametre=1 mm"), "diameter"),
+        (("run", PLATE, "--set", "accuracy.mesh_size=0.1"), "has no unit"),
+        (("check", "nowhere"), "nowhere/case.toml does not exist"),
+        (("solve", "nowhere"), "nowhere"),
+        (("submit", PLATE, "--scheduler", "slurm", "--time", "soon"), "[hpc] time"),
+        (("init", PLATE), "is there already"),
+        (("init", "new", "--like", "nothing"), "bolt-hole"),
+        (("clean", "nowhere"), "holds no results"),
+        (("report", PLATE), "mesh is not run"),
+    ],
+)
+def test_wrong_input_is_one_paragraph_and_2(arguments: tuple[object, ...], said: str, tmp_path: Path):
+    out = () if arguments[0] in ("check", "init") else ("--out", tmp_path)
+    ended = peenflow(*arguments, *out)
+    assert ended.returncode == 2, ended.stderr
+    assert one_paragraph(ended.stderr), ended.stderr
+    assert said in ended.stderr
+    assert ended.stdout == ""
+
+
+@pytest.mark.parametrize("arguments", [("run",), ("run", PLATE, "--nope"), ("submit", PLATE), ("nope",)])
+def test_usage_errors_are_2(arguments: tuple[object, ...]):
+    ended = peenflow(*arguments)
+    assert ended.returncode == 2
+    assert "Traceback" not in ended.stderr
+
+
+@pytest.mark.parametrize("place", [("--debug", "check", "nowhere"), ("check", "nowhere", "--debug")])
+def test_debug_shows_the_traceback_wherever_it_stands(place: tuple[str, ...]):
+    ended = peenflow(*place)
+    assert ended.returncode == 2
+    assert "Traceback" in ended.stderr
+
+
+def test_help_and_version():
+    assert "Run what is not up to date" in peenflow("--help").stdout
+    assert peenflow("--version").stdout.startswith("peenflow ")
+
+
+def test_check_prints_one_json_document_and_writes_nothing(tmp_path: Path):
+    peenflow("init", tmp_path / "case", "--like", "patch")
+    before = sorted(tmp_path.rglob("*"))
+    found = json.loads(peenflow("check", tmp_path / "case", "--json").stdout)
+    assert {"effects", "stages", "fe", "dem", "warnings"} <= found.keys()
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_init_makes_a_case_that_passes_check(tmp_path: Path):
+    made = peenflow("init", tmp_path / "new")
+    assert made.returncode == 0
+    checked = peenflow("check", tmp_path / "new")
+    assert checked.returncode == 0, checked.stderr
+    assert "rate_hardening" in checked.stdout
+
+
+def test_a_second_run_is_refused_and_told_the_first(tmp_path: Path):
+    hold = "import sys; from pathlib import Path; from peenflow.pipeline.lock import locked\n"
+    hold += "with locked(Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
+    command = [sys.executable, "-c", hold, str(tmp_path)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=ROOT) as first:
+        assert first.stdout is not None
+        assert first.stdout.readline() == "held\n"
+        refused = mesh(tmp_path)
+        first.kill()
+    assert refused.returncode == 1
+    assert one_paragraph(refused.stderr)
+    assert f"process {first.pid}" in refused.stderr
+    assert mesh(tmp_path).returncode == 0
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_stopped_run_goes_on(tmp_path: Path, number: signal.Signals, status: int):
+    """A mesh fine enough to take a second is stopped while it is made."""
+    slow = ("--set", "accuracy.mesh_size=0.01 mm")
+    command = [sys.executable, "-m", "peenflow", "run", str(PLATE), "--out", str(tmp_path), "--until", "mesh", *slow]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, cwd=ROOT) as process:
+        assert process.stderr is not None
+        assert process.stderr.readline().startswith("mesh: started")
+        process.send_signal(number)
+        _, said = process.communicate(timeout=60)
+    assert process.returncode == status, said
+    assert said.splitlines()[-1].startswith("Error: Stopped by")
+    told = peenflow("status", PLATE, "--out", tmp_path, *slow)
+    assert told.stdout.splitlines()[1].split()[:2] == ["mesh", "failed"]
+    assert "mesh: started, did not finish: stopped by" in mesh_again(tmp_path, slow).stderr
+
+
+def mesh_again(out: Path, settings: tuple[str, ...]) -> subprocess.CompletedProcess[str]:
+    return peenflow("run", PLATE, "--out", out, "--until", "mesh", *settings)
+
+
+def test_clean_removes_results_and_nothing_else(tmp_path: Path):
+    mesh(tmp_path / "out")
+    (tmp_path / "out" / "mine.txt").write_text("")
+    assert peenflow("clean", PLATE, "--out", tmp_path / "out").returncode == 0
+    assert [p.name for p in (tmp_path / "out").iterdir()] == ["mine.txt"]
+
+
+def test_submit_shows_a_script_that_runs_the_case(tmp_path: Path):
+    out = tmp_path / "re sults"
+    shown = peenflow("submit", PLATE, "--scheduler", "slurm", "--out", out, "--dry-run", *COARSE, "--cpus", "3")
+    assert shown.returncode == 0
+    script = (out / "jobs" / "slurm.sh").read_text()
+    assert script in shown.stdout
+    assert "#SBATCH --cpus-per-task=3\n" in script
+    again = (
+        f"-m peenflow run {PLATE} --out '{out}' --set 'accuracy.mesh_size=0.1 mm' --set 'target.patch.length=0.5 mm'"
+    )
+    assert script.endswith(f"{again}\n")
+
+
+def test_submit_without_the_scheduler_is_wrong_input(tmp_path: Path):
+    ended = peenflow("submit", PLATE, "--scheduler", "pbs", "--out", tmp_path, PATH="/nowhere")
+    assert ended.returncode == 2
+    assert "qsub is not on this machine" in ended.stderr
+
+
+def test_a_reader_that_goes_away_is_no_internal_error():
+    command = f"{sys.executable} -m peenflow check {PLATE} --json | head -c 1"
+    ended = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, cwd=ROOT)
+    assert "Error" not in ended.stderr
+    assert "Traceback" not in ended.stderr
+
+
+@pytest.mark.parametrize("command", [("--help",), ("check", PLATE)])
+def test_what_only_looks_imports_nothing_slow(command: tuple[object, ...]):
+    """numba and VTK take their time, and a machine that only looks need not be able to draw."""
+    code = "import sys; from peenflow.cli import main\ntry: main()\nexcept SystemExit: pass\n"
+    code += "print([m for m in ('numba', 'vtk', 'vtkmodules', 'pyvista') if m in sys.modules])"
+    ended = subprocess.run(
+        [sys.executable, "-c", code, *map(str, command)], capture_output=True, text=True, check=True, cwd=ROOT
+    )
+    assert ended.stdout.splitlines()[-1] == "[]", ended.stderr

@@ -1,0 +1,91 @@
+import dataclasses
+from pathlib import Path
+
+import pytest
+
+from peenflow.case.directory import read_case
+from peenflow.case.model import Effects
+from peenflow.effects import EFFECTS
+from peenflow.resolve import resolve
+from peenflow.scene import Decision
+
+CASES = Path(__file__).parents[3] / "cases"
+
+
+def decisions(name: str, *settings: str) -> dict[str, Decision]:
+    return resolve(*read_case(CASES / name, settings)).effects
+
+
+def test_every_effect_of_the_case_file_has_its_module_and_says_all_of_itself() -> None:
+    assert [effect.name for effect in EFFECTS] == list(Effects.model_fields)
+    for effect in EFFECTS:
+        assert all(getattr(effect, field.name) for field in dataclasses.fields(effect))
+
+
+def test_auto_is_on_where_the_estimate_exceeds_the_presets_tolerance() -> None:
+    for preset, tolerance in (("draft", 0.05), ("standard", 0.02), ("fine", 0.01)):
+        for decision in decisions("bolt-hole", f"accuracy.preset={preset}").values():
+            assert decision.threshold == tolerance
+            assert decision.on == (decision.estimate is not None and decision.estimate > tolerance)
+            assert decision.state == ("auto: on" if decision.on else "auto: off")
+
+
+def test_the_case_has_the_last_word() -> None:
+    found = decisions("bolt-hole", "effects.gravity=on", "effects.rate_hardening=off")
+    assert (found["gravity"].on, found["gravity"].state) == (True, "on")
+    assert (found["rate_hardening"].on, found["rate_hardening"].state) == (False, "off")
+    assert found["gravity"].why.startswith("the case says so; ")
+
+
+def test_what_does_not_apply_is_off_and_says_why() -> None:
+    found = decisions("single-shot", "effects.gravity=on")
+    for name in ("gravity", "shot_collisions"):
+        assert (found[name].on, found[name].estimate, found[name].why) == (False, None, "no flight in this case")
+    assert found["deflector_motion"].why == "no deflector in this case"
+    assert found["far_field"].why == "no patch in this case (the unit cell absorbs)"
+
+
+def test_rate_hardening() -> None:
+    assert decisions("plate")["rate_hardening"].estimate == pytest.approx(0.16, abs=0.01)
+    assert decisions("plate", "target.johnson_cook.C=0.0")["rate_hardening"].estimate is None
+
+
+def test_thermal_softening_is_small_on_inconel_and_not_on_a_hot_or_soft_part() -> None:
+    cold = decisions("plate")["thermal_softening"]
+    assert cold.estimate == pytest.approx(0.0067, rel=0.05)
+    at_100 = decisions("plate", "nozzle.0.speed=100 m/s")["thermal_softening"]
+    assert at_100.estimate == pytest.approx(0.01, abs=0.002)  # FE: CoR changes by 1 %
+    assert decisions("plate", "target.temperature=600 K")["thermal_softening"].on
+
+
+def test_shot_collisions_of_the_sparse_hole_are_as_measured() -> None:
+    sparse = ["nozzle.0.rate=4000 1/s", "dem.restitution=0.57"]
+    assert decisions("bolt-hole", *sparse)["shot_collisions"].estimate == pytest.approx(0.15, abs=0.02)
+    assert not decisions("bolt-hole", "nozzle.0.rate=400 1/s", "dem.restitution=0.57")["shot_collisions"].on
+
+
+def test_gravity_is_velocity_gained_over_speed() -> None:
+    flight, speed = 0.030, 62.5
+    assert decisions("plate")["gravity"].estimate == pytest.approx(9.80665 * flight / speed**2)
+    assert decisions("plate", "nozzle.0.speed=2 m/s")["gravity"].on
+
+
+def test_deflector_motion_is_speed_or_sweep() -> None:
+    assert decisions("bolt-hole")["deflector_motion"].estimate == 1.0
+    short = ["exposure.duration=0.05 ms", "effects.deflector_motion=auto"]  # moves 0.1 mm of 3 mm
+    assert decisions("bolt-hole", *short)["deflector_motion"].estimate == pytest.approx(0.1 / 3, rel=1e-6)
+    still = decisions("bolt-hole", *short, "deflector.travel.speed=1 mm/s")["deflector_motion"]
+    assert not still.on
+
+
+def test_friction_after_the_deflector() -> None:
+    """A 45° face with e turns shots to atan((1−e)/(1+e)) from the wall's normal."""
+    e, found = 0.57, decisions("bolt-hole", "dem.restitution=0.57")["contact_friction"]
+    assert "hits at 75° from the surface" in found.why
+    assert found.estimate == pytest.approx(2 / 7 * (1 - e) / (1 + e) / (1 + 0.427), rel=0.01)
+
+
+def test_far_field_fades_with_depth() -> None:
+    shallow, deep = (decisions("plate", f"accuracy.depth={d} mm")["far_field"].estimate for d in (0.4, 4.0))
+    assert shallow is not None
+    assert deep == pytest.approx(shallow / 10)

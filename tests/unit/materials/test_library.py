@@ -1,0 +1,67 @@
+import pytest
+
+from peenflow.case.model import Constants, JohnsonCookConstants
+from peenflow.errors import InputError
+from peenflow.materials.library import material, table
+
+SETS = {  # A, B [MPa], n, C, m, melt [K], density, E [GPa]
+    "inconel718": (1241, 622, 0.6522, 0.0134, 1.3, 1570, 8200, 211),
+    "inconel718-aged": (1350, 1139, 0.6522, 0.0134, 1.3, 1570, 8200, 211),
+    "inconel718-annealed": (400, 1798, 0.9143, 0.0312, 1.3, 1570, 8200, 211),
+    "inconel718-980": (980, 1370, 0.164, 0.02, 1.03, 1570, 8200, 211),
+    "inconel718-460": (460, 1700, 0.65, 0.017, 1.3, 1570, 8200, 211),
+    "inconel718-1200": (1200, 1284, 0.54, 0.006, 1.2, 1570, 8200, 211),
+    "steel-4340": (792, 510, 0.26, 0.014, 1.03, 1793, 7830, 206),
+    "steel-42crmo4": (806, 614, 0.168, 0.0089, 1.1, 1813.15, 7830, 206.9),
+    "steel-sae1070": (1408, 600.8, 0.234, 0.0134, 1.0, 1790, 7850, 205),
+    "ti6al4v": (1098, 1092, 0.93, 0.014, 1.1, 1878, 4430, 114),
+    "ti6al4v-997": (997, 653, 0.45, 0.0198, 0.7, 1878, 4430, 114),
+    "al2024-t351": (369, 684, 0.73, 0.0083, 1.7, 775, 2780, 73.1),
+    "al7075-t6": (546, 678, 0.71, 0.024, 1.56, 893, 2810, 71.7),
+    "ofhc-copper": (90, 292, 0.31, 0.025, 1.09, 1356, 8960, 124),
+}
+NOTHING = Constants()
+
+
+@pytest.mark.parametrize(("name", "row"), SETS.items())
+def test_every_set_loads_with_its_constants(name: str, row: tuple[float, ...]) -> None:
+    found = material(name, NOTHING, JohnsonCookConstants())
+    assert found.rate is not None
+    assert found.thermal is not None
+    assert found.rate.reference_rate == 1.0
+    assert (found.thermal.room, found.thermal.taylor_quinney) == (293.15, 0.9)
+    mine = (found.A / 1e6, found.B / 1e6, found.n, found.rate.C, found.thermal.m, found.thermal.melt)
+    assert (*mine, found.density, found.young / 1e9) == pytest.approx(row, rel=1e-12)
+
+
+def test_the_table_has_those_sets_and_the_elastic_ones_and_says_where_from() -> None:
+    assert set(table()) == set(SETS) | {"glass", "zirconia"}
+    for name, row in table().items():
+        assert len(row["constants_source"]) > 20
+        assert name not in SETS or len(row["source"]) > 20
+
+
+def test_the_case_overwrites_any_constant() -> None:
+    own = JohnsonCookConstants.model_validate({"A": "1 GPa", "C": 0.0})
+    found = material("inconel718", Constants.model_validate({"density": "8.3 g/cm^3"}), own, initial=400.0)
+    assert (found.A, found.B, found.density) == pytest.approx((1e9, 622e6, 8300))
+    assert found.rate is None
+    assert found.thermal is not None
+    assert found.thermal.initial == 400.0
+
+
+def test_a_set_of_the_cases_own_needs_no_row() -> None:
+    elastic = Constants.model_validate({"density": "7900 kg/m^3", "young": "200 GPa", "poisson": 0.3})
+    plastic = JohnsonCookConstants.model_validate({"A": "500 MPa", "B": "300 MPa", "n": 0.3})
+    found = material("my-steel", elastic, plastic)
+    assert (found.name, found.rate, found.thermal) == ("my-steel", None, None)
+
+
+def test_an_unknown_name_offers_the_nearest() -> None:
+    with pytest.raises(InputError, match=r"unknown material 'inconell718'; did you mean inconel718 "):
+        material("inconell718", NOTHING, JohnsonCookConstants())
+
+
+def test_an_elastic_target_says_what_it_lacks() -> None:
+    with pytest.raises(InputError, match=r"'glass' has no constants of plasticity; give target.johnson_cook.A"):
+        material("glass", NOTHING, JohnsonCookConstants())

@@ -1,0 +1,50 @@
+import dataclasses
+
+import pytest
+
+from peenflow.case.model import Constants, JohnsonCookConstants, Shot
+from peenflow.dent import predict, speed_for_depth
+from peenflow.materials import library, shots
+
+SHOT = shots.properties(Shot(size="CW14"))
+INCONEL = library.material("inconel718", Constants(), JohnsonCookConstants())
+
+
+def test_the_papers_shot_on_inconel_718_agrees_with_explicit_fe() -> None:
+    dent = predict(62.5, SHOT, INCONEL)
+    assert dent.radius == pytest.approx(61.6e-6, rel=0.02)
+    assert dent.depth == pytest.approx(10.36e-6, rel=0.05)
+    assert dent.contact_time == pytest.approx(0.450e-6, rel=0.02)
+    assert 0.3 < dent.restitution < 0.5
+
+
+def test_energy_is_split_into_dent_and_rebound() -> None:
+    dent, energy = predict(62.5, SHOT, INCONEL), 0.5 * SHOT.mass * 62.5**2
+    into_dent = dent.pressure * 3.141592653589793 * dent.radius**4 / (2 * SHOT.diameter)
+    assert into_dent / energy == pytest.approx(1 - dent.restitution**2, rel=1e-3)
+
+
+def test_scales_with_the_shot() -> None:
+    """Without rate hardening nothing has a length of its own: dents grow with the shot, times too."""
+    material = dataclasses.replace(INCONEL, rate=None)
+    small, large = (predict(62.5, dataclasses.replace(SHOT, diameter=d), material) for d in (0.2e-3, 0.4e-3))
+    assert large.radius == pytest.approx(2 * small.radius, rel=1e-6)
+    assert large.contact_time == pytest.approx(2 * small.contact_time, rel=1e-6)
+    assert large.restitution == pytest.approx(small.restitution, rel=1e-6)
+
+
+def test_faster_shots_dent_deeper_and_rebound_less() -> None:
+    slow, fast = predict(30.0, SHOT, INCONEL), predict(100.0, SHOT, INCONEL)
+    assert slow.depth < fast.depth
+    assert slow.restitution > fast.restitution
+    assert slow.contact_time > fast.contact_time
+
+
+def test_rate_hardening_makes_the_dent_smaller() -> None:
+    assert predict(62.5, SHOT, dataclasses.replace(INCONEL, rate=None)).radius > predict(62.5, SHOT, INCONEL).radius
+
+
+def test_the_speed_of_a_shallow_dent() -> None:
+    speed = speed_for_depth(0.02, 62.5, SHOT, INCONEL)
+    assert predict(speed, SHOT, INCONEL).depth == pytest.approx(0.02 * predict(62.5, SHOT, INCONEL).depth, rel=1e-6)
+    assert 1.0 < speed < 3.0

@@ -1,0 +1,97 @@
+import math
+from pathlib import Path
+
+import pytest
+
+from peenflow.case.directory import read_case
+from peenflow.geometry import BoltHole, Plate
+from peenflow.resolve import resolve
+from peenflow.scene import Scene
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+def scene(name: str, *settings: str) -> Scene:
+    return resolve(*read_case(CASES / name, settings))
+
+
+def test_the_bolt_hole() -> None:
+    found = scene("bolt-hole")
+    assert found.surface == BoltHole(radius=pytest.approx(3.75e-3), length=pytest.approx(25e-3))
+    assert found.speed == 62.5
+    assert found.knobs.mesh_size == pytest.approx(found.dent_radius / 3)
+    assert found.knobs.calibration_mesh_size == pytest.approx(0.3556e-3 / 36, rel=0.02)
+    assert found.knobs.depth == pytest.approx(0.75e-3, rel=0.01)
+    assert found.knobs.boundary == "far-field"
+    assert found.shot.per_second(found.case.nozzle[0]) == 40000
+    on = {name for name, decision in found.effects.items() if decision.on}
+    assert on == {"rate_hardening", "contact_friction", "shot_collisions", "deflector_motion", "far_field"}
+    assert found.material.rate is not None
+    assert found.material.thermal is None
+
+
+def test_a_given_table_of_impacts_sets_the_speed() -> None:
+    found = scene("patch")
+    assert found.surface == Plate(pytest.approx(0.6e-3))
+    assert 65.0 < found.speed < 75.0
+    assert (found.knobs.mesh_size, found.knobs.depth) == pytest.approx((0.0125e-3, 0.6e-3))
+    assert (found.knobs.boundary, found.knobs.group_distance) == ("fixed", None)
+    assert not found.effects["contact_friction"].on
+
+
+def test_a_single_shot_has_no_part_and_its_mesh_size_is_the_cells() -> None:
+    found = scene("single-shot", "accuracy.mesh_size=0.01 mm", "single_shot.speed=100 m/s")
+    assert found.surface is None
+    assert found.speed == 100
+    assert found.knobs.calibration_mesh_size == pytest.approx(1e-5)
+    assert found.knobs.boundary == "far-field"
+    assert scene("single-shot", "accuracy.calibration_mesh_size=0.02 mm").knobs.calibration_mesh_size == 2e-5
+
+
+@pytest.mark.parametrize(("preset", "elements", "depths"), [("draft", 2, 1.05), ("standard", 3, 2.1), ("fine", 5, 3.2)])
+def test_presets_are_relative_to_dent_and_shot(preset: str, elements: float, depths: float) -> None:
+    for settings in ([], ["shot.diameter=0.8 mm", "nozzle.0.speed=40 m/s"]):
+        found = scene("plate", f"accuracy.preset={preset}", *settings)
+        assert found.knobs.mesh_size == pytest.approx(found.dent_radius / elements)
+        assert found.knobs.depth == pytest.approx(depths * found.shot.diameter)
+
+
+def test_knobs_override_the_preset() -> None:
+    found = scene(
+        "plate",
+        "accuracy.time_step=0.5",
+        "accuracy.depth=0.4 mm",
+        "accuracy.group_distance=2",
+        "accuracy.min_normal_speed=0 m/s",
+        "accuracy.contact_interval=1",
+    ).knobs
+    assert (found.time_step, found.depth, found.group_distance) == pytest.approx((0.5, 4e-4, 2.0))
+    assert (found.min_normal_speed, found.contact_interval) == (0.0, 1)
+    assert scene("plate", "target.patch.depth=0.4 mm").knobs.depth == pytest.approx(4e-4)
+
+
+def test_a_thin_plate_is_meshed_through_and_has_nothing_behind() -> None:
+    found = scene("plate", "target.geometry.thickness=0.5 mm", "effects.far_field=on")
+    assert found.knobs.depth == pytest.approx(0.5e-3)
+    assert found.knobs.boundary == "fixed"
+    assert found.effects["far_field"].state == "off"
+
+
+def test_boundary_decides_the_far_field() -> None:
+    found = scene("plate", "accuracy.boundary=fixed")
+    assert (found.knobs.boundary, found.effects["far_field"].state) == ("fixed", "off")
+
+
+def test_an_effect_that_is_off_leaves_no_constants() -> None:
+    found = scene("plate", "effects.rate_hardening=off", "effects.thermal_softening=on")
+    assert found.material.rate is None
+    assert found.material.thermal is not None
+    assert found.dent_radius > scene("plate").dent_radius
+
+
+def test_an_oblique_nozzle_rubs() -> None:
+    tilted = [0.0, math.sin(math.radians(30)), -math.cos(math.radians(30))]
+    found = scene("plate", f"nozzle.0.direction={tilted}")
+    assert found.effects["contact_friction"].on
+    assert "60° from the surface" in found.effects["contact_friction"].why
+    assert not scene("plate", f"nozzle.0.direction={tilted}", "dem.friction=0.0").effects["contact_friction"].on
