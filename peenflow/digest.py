@@ -53,7 +53,17 @@ def _change(name: str, old: Leaf | None, new: Leaf | None) -> str:
         return f"{name} is new" if old is None else f"{name} is gone"
     if old.digest == new.digest:
         return ""
-    return f"{name} changed" if old.text == new.text else f"{name} changed from {old.text} to {new.text}"
+    before, after = _short(old.text), _short(new.text)
+    if before == after:  # apart by less than is shown, or not shown at all
+        before, after = old.text, new.text
+    return f"{name} changed" if before == after else f"{name} changed from {before} to {after}"
+
+
+def _short(text: str) -> str:
+    try:
+        return f"{float(text):.6g}"
+    except ValueError:
+        return text
 
 
 def _walk(value: Any, name: str) -> Iterator[tuple[str, Leaf]]:

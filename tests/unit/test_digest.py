@@ -84,6 +84,13 @@ def test_changes_are_named_with_both_values():
     assert changes(old, old) == ""
 
 
+def test_numbers_are_shown_as_short_as_tells_them_apart():
+    old = leaves(made())
+    assert changes(old, leaves(made(mesh_size=1e-4 / 3))) == "mesh_size changed from 2e-05 to 3.33333e-05"
+    near = "mesh_size changed from 2e-05 to 2.0000000000000005e-05"
+    assert changes(old, leaves(made(mesh_size=2.0000000000000005e-05))) == near
+
+
 def test_long_lists_of_changes_are_counted():
     old = leaves({f"k{i}": i for i in range(9)})
     new = leaves({f"k{i}": i + 1 for i in range(9)})
