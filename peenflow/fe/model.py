@@ -59,8 +59,9 @@ def build(deck: Deck, threads: int) -> Model:
     patch, controls = deck.patch, deck.controls
     X = np.ascontiguousarray(patch.nodes, float)
     blocks = blocked(patch.hexes)
+    elements = len(patch.hexes)
     volumes = np.zeros(len(X))
-    nodal_volumes(blocks, len(patch.hexes), X, volumes)
+    nodal_volumes(blocks, elements, X, np.ones(elements), volumes)
     ranges = np.linspace(0, len(blocks), threads + 1).astype(np.int64)
     spans = node_spans(blocks, ranges)
     rollers = boundary.rollers(deck.rollers)
@@ -73,7 +74,7 @@ def build(deck: Deck, threads: int) -> Model:
     return Model(
         X=X,
         blocks=blocks,
-        elements=len(patch.hexes),
+        elements=elements,
         mass=deck.material.density * volumes,
         ranges=ranges,
         chunks=np.linspace(0, len(X), threads + 1).astype(np.int64),

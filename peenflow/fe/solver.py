@@ -51,6 +51,8 @@ class Solver:
         self.model = build(deck, threads)
         self.threads = threads
         self.state = self._initial()
+        # relaxation puts others in the place of these
+        self.mass, self.far, self.damping = self.model.mass, self.model.far, self.model.damping
         self.friction = deck.spheres.friction if deck.spheres else 0.0
         self.candidates = spheres.candidates(self.state.balls, self.model, self.state.u, 0.0)
         self._impulses = np.zeros((len(self.state.balls.radius), 3))
@@ -112,7 +114,6 @@ class Solver:
         """BUNDLE steps of one size, after a look at what may have changed."""
         state = self.state
         state.dt = self.stable_step()
-        state.last_dt = state.last_dt or state.dt
         state.first_dt = state.first_dt or state.dt
         if self.model.spheres is not None:
             horizon = BUNDLE * state.dt
@@ -156,9 +157,9 @@ class Solver:
             motion.remember(model.loads.nodes, state.v, self._before_loads)
             pressure.load_forces(model.loads, state.time, model.X, state.u, self._external)
             pressure.add_at(model.loads.nodes, self._external, state.force[0])
-        motion.advance(model.chunks, model.spans, state.force, model.mass, state.u, state.v, kick, dt, self._kinetic)
+        motion.advance(model.chunks, model.spans, state.force, self.mass, state.u, state.v, kick, dt, self._kinetic)
         boundary.hold(model.rollers.nodes, model.rollers.projectors, state.u, state.v, dt)
-        ledger.absorbed += boundary.absorb(model.far, model.mass, state.u, state.v, self._before_far, kick, dt)
+        ledger.absorbed += boundary.absorb(self.far, self.mass, state.u, state.v, self._before_far, kick, dt)
         if model.loads is not None:
             ledger.work += pressure.work_done(model.loads.nodes, self._external, self._before_loads, state.v, dt)
         if model.spheres is not None:
@@ -171,7 +172,7 @@ class Solver:
 
     def _collide(self, dt: float) -> None:
         model, state = self.model, self.state
-        surface = Surface(model.X, state.u, state.v, model.mass, model.held, model.rollers.projectors)
+        surface = Surface(model.X, state.u, state.v, self.mass, model.held, model.rollers.projectors)
         lost, rubbed = correct(state.balls, self.candidates, surface, dt, self.friction, self._impulses)
         state.ledger.contact += lost
         state.ledger.friction += rubbed
@@ -184,7 +185,7 @@ class Solver:
         fields = (state.deviator, state.peeq, state.temperature)
         add_internal_forces(
             model.ranges, model.blocks, model.elements, model.X, state.u, state.v, fields,
-            state.force, state.ledger.elements, dt, model.law, model.damping, model.rate, model.thermal,
+            state.force, state.ledger.elements, dt, model.law, self.damping, model.rate, model.thermal,
         )  # fmt: skip
 
     def _guard(self) -> None:

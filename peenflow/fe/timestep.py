@@ -63,8 +63,18 @@ def least_transit_time(ranges, blocks, elements, X, u, c_p, least):
 
 
 @kernel
-def nodal_volumes(blocks, elements, X, volumes):
-    """Add an eighth of each element's volume to its nodes: lumped mass over density [m³]."""
+def transit_times(blocks, elements, X, c_p, times):
+    """Fill times (m,) [s] with every element's stable step in the reference configuration."""
+    reference, displacement = np.empty(24 * LANES), np.zeros(24 * LANES)
+    for block in range(len(blocks)):
+        gather(blocks[block], X, reference)
+        for lane in range(min(LANES, elements - block * LANES)):
+            times[block * LANES + lane] = transit_time(reference, displacement, lane, c_p)
+
+
+@kernel
+def nodal_volumes(blocks, elements, X, weights, volumes):
+    """Add an eighth of each element's volume times its weight (m,) to its nodes: lumped mass over density [m³]."""
     reference = np.empty(24 * LANES)
     for block in range(len(blocks)):
         gather(blocks[block], X, reference)
@@ -72,7 +82,7 @@ def nodal_volumes(blocks, elements, X, volumes):
             x = read_modes(reference, lane)
             volume, _ = modes.volume_gradients(x[0], x[1], x[2], x[3], x[4], x[5])
             for k in range(8):
-                volumes[blocks[block, k, lane]] += 0.125 * volume
+                volumes[blocks[block, k, lane]] += 0.125 * volume * weights[block * LANES + lane]
 
 
 def damped(step: float, share: float, viscosity: float) -> float:
