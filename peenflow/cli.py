@@ -14,6 +14,7 @@ from peenflow.case.directory import read_case
 from peenflow.errors import PeenflowError
 from peenflow.estimate import estimate
 from peenflow.resolve import resolve
+from peenflow.stop import stoppable
 
 app = typer.Typer(
     help="Residual stress of shot peening: discrete elements throw the shots, explicit finite elements bear them.",
@@ -155,19 +156,17 @@ def clean(case: CaseArgument, out: OutOption = None) -> None:
 
 
 def main() -> NoReturn:
-    """Entry point; the exit status is 0 done, 1 failed while running, 2 wrong input, 130 stopped by Ctrl-C."""
+    """Entry point; the exit status is 0 done, 1 failed while running, 2 wrong input, 130 or 143 stopped."""
     debug = "--debug" in sys.argv[1:]
     arguments = [argument for argument in sys.argv[1:] if argument != "--debug"]  # allowed anywhere
     try:
-        app(arguments, prog_name="peenflow")
+        with stoppable():
+            app(arguments, prog_name="peenflow")
     except PeenflowError as error:
         if debug:
             traceback.print_exc()
         display.error(str(error))
         sys.exit(error.exit_status)
-    except KeyboardInterrupt:
-        display.error("Stopped by Ctrl-C.")
-        sys.exit(130)
     except Exception as error:
         if debug:
             traceback.print_exc()

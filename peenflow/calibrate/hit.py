@@ -53,7 +53,7 @@ def strike(solver: Solver, shot: Shot, hit: int, predicted: tuple[float, float])
         predicted: (dent radius [m], contact time [s]).
     """
     radius, duration = predicted
-    speed = -float(solver.deck.spheres.velocity[0, 2])  # type: ignore[union-attr]
+    velocity = solver.deck.spheres.velocity[0]  # type: ignore[union-attr]
     probe = watch(solver, 2 * radius)
     solver.run(SEPARATION + 2 * duration, probe)
     rebound = probe.velocities[-1]
@@ -66,9 +66,9 @@ def strike(solver: Solver, shot: Shot, hit: int, predicted: tuple[float, float])
     mean_pressure = force / (np.pi * np.maximum(rings.contact_radius, 1e-12) ** 2)
     axis, uz, diameter = _dent(solver)
     return SingleHit(
-        speed=speed,
+        speed=float(np.linalg.norm(velocity)),
         hit=hit,
-        cor=rebound / speed,
+        cor=-rebound / float(velocity[2]),
         peak_force=float(force.max()),
         contact_time=contact_time(time, step, impulse),
         impulse=float(whole * impulse.sum()),

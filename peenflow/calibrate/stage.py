@@ -7,29 +7,21 @@ material does not pay again.
 import hashlib
 import math
 import os
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import numba
-import numpy as np
-
-from peenflow.calibrate.hit import strike
-from peenflow.calibrate.unit_cell import Numerics, Shot, cell_deck, half_cell, quarter_cell
+from peenflow.calibrate.unit_cell import Numerics, Shot
 from peenflow.digest import key, leaves
 from peenflow.errors import InputError
-from peenflow.fe import outcome
-from peenflow.fe.solver import Solver
 from peenflow.progress import Progress
 from peenflow.records import hdf5
-from peenflow.records.calibration import Calibration, SingleHit
+from peenflow.records.calibration import Calibration
 from peenflow.records.material import Material
 from peenflow.records.upstream import Upstream
 from peenflow.scene import Scene, Skip
 
 LOWER_SPEEDS = (0.4, 0.7)  # of the nozzle's: most impacts arrive slower than they left it
 REPEATED_HITS = 4  # the paper's Table 4
-SUBDIVISIONS = 16  # of a quad's side, where the evaluation disc cuts it
 
 
 @dataclass(frozen=True)
@@ -56,7 +48,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
     friction = case.dem.friction if scene.effects["contact_friction"].on else 0.0
     return Inputs(
         material=scene.material,
-        shot=Shot(scene.shot.diameter, scene.shot.density, friction if single else 0.0),
+        shot=Shot(scene.shot.diameter, scene.shot.density, friction),
         numerics=Numerics(
             mesh_size=scene.knobs.calibration_mesh_size,
             dent_radius=scene.dent_radius,
@@ -82,7 +74,9 @@ def run(inputs: Inputs, workdir: Path, progress: Progress) -> Calibration:
     kept = _cache_file(inputs)
     calibration = _from_cache(kept)
     if calibration is None:
-        calibration = _calibrate(inputs, progress)
+        from peenflow.calibrate.shoot import calibrate  # numba takes its time, and what only looks is to be quick
+
+        calibration = calibrate(inputs, progress)
         hdf5.save(calibration, kept)
     else:
         progress.note(f"calibrate: the same shot and material were calibrated before ({kept})")
@@ -114,76 +108,3 @@ def _from_cache(path: Path) -> Calibration | None:
         return hdf5.load(Calibration, path) if path.is_file() else None
     except InputError:
         return None
-
-
-def _calibrate(inputs: Inputs, progress: Progress) -> Calibration:
-    patch = (quarter_cell if inputs.angle == math.pi / 2 else half_cell)(inputs.shot, inputs.numerics)
-    threads, predicted = numba.get_num_threads(), (inputs.numerics.dent_radius, inputs.contact_time)
-
-    def cell(speed: float) -> Solver:
-        velocity = -speed * np.array([math.cos(inputs.angle), 0.0, math.sin(inputs.angle)])
-        return Solver(cell_deck(patch, inputs.shot, velocity, inputs.material, inputs.numerics), threads)
-
-    began = time.perf_counter()
-    solvers: list[Solver] = []
-    with progress.task("calibrate", len(inputs.lower_speeds) + inputs.hits) as task:
-        slower = []
-        for speed in inputs.lower_speeds:
-            solvers.append(cell(speed))
-            slower.append(strike(solvers[-1], inputs.shot, 1, predicted))
-            task.update(len(solvers))
-        hits: list[SingleHit] = []
-        for hit in range(1, inputs.hits + 1):
-            solver = cell(inputs.speed)
-            if hits:
-                solver.take_over(solvers[-1])
-            solvers.append(solver)
-            hits.append(strike(solver, inputs.shot, hit, predicted))
-            task.update(len(solvers))
-    elapsed = time.perf_counter() - began
-    return _record(inputs, solvers, (*slower, hits[0]), tuple(hits), elapsed)
-
-
-def _record(
-    inputs: Inputs, solvers: list[Solver], speeds: tuple[SingleHit, ...], hits: tuple[SingleHit, ...], elapsed: float
-) -> Calibration:
-    last = solvers[-1]
-    patch, stress = last.deck.patch, outcome.stresses(last)[0]
-    peeq = outcome.element_values(last, last.state.peeq)
-    layers = int(patch.layer.max()) + 1
-    weights = _disc_areas(last, inputs.disc_radius)
-    on_axis = int(np.argmin(np.hypot(*patch.uv.T)))
-    # Element e is layer e % layers of column e // layers (block.py): columns × layers.
-    columns = np.concatenate([stress[:, :3], peeq[:, None]], axis=1).reshape(-1, layers, 4)
-    mean = np.einsum("c,clk->lk", weights / weights.sum(), columns)
-    steps = sum(solver.state.step for solver in solvers)
-    return Calibration(
-        shot_diameter=inputs.shot.diameter,
-        shot_density=inputs.shot.density,
-        speeds=speeds,
-        hits=hits,
-        depth=patch.depth[:layers].copy(),
-        mean_stress=mean[:, :3],
-        mean_peeq=mean[:, 3],
-        axis_stress=columns[on_axis, :, :3],
-        axis_peeq=columns[on_axis, :, 3],
-        elements=len(patch.hexes),
-        nodes=len(patch.nodes),
-        steps=steps,
-        time_step=last.state.first_dt,
-        energy_error=max(solver.state.ledger.error for solver in solvers),
-        hourglass_energy_ratio=max(solver.state.hourglass_ratio for solver in solvers),
-        element_updates_per_s=len(patch.hexes) * steps / elapsed,
-    )
-
-
-def _disc_areas(solver: Solver, radius: float) -> np.ndarray:
-    """Area (q,) [m²] of each surface quad inside the disc, by sampling the quad."""
-    patch = solver.deck.patch
-    corners = patch.nodes[patch.surface][:, :, :2]
-    low, size = corners.min(axis=1), np.ptp(corners, axis=1)
-    steps = (np.arange(SUBDIVISIONS) + 0.5) / SUBDIVISIONS
-    x = low[:, :1] + size[:, :1] * steps
-    y = low[:, 1:] + size[:, 1:] * steps
-    inside = x[:, :, None] ** 2 + y[:, None, :] ** 2 <= radius**2
-    return np.asarray(inside.mean(axis=(1, 2)) * patch.area)

@@ -1,5 +1,6 @@
 """Triangles (t, 3, 3) of the bodies a case describes by a few numbers: nozzle discs and the deflector rod."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -21,6 +22,13 @@ def disc(nozzle: Nozzle) -> np.ndarray:
     circle = _circle(nozzle.diameter / 2, DISC_SIDES)
     rim = np.asarray(nozzle.position) + circle[:, :1] * first + circle[:, 1:] * second
     return _fan(np.asarray(nozzle.position), rim)
+
+
+def guard(nozzle: Nozzle, ahead: float) -> np.ndarray:
+    """A disc `ahead` [m] of the nozzle's opening and as much wider all round, its normals along the flight."""
+    position = np.asarray(nozzle.position) + ahead * np.asarray(nozzle.direction)
+    x, y, z = position.tolist()
+    return disc(dataclasses.replace(nozzle, position=(x, y, z), diameter=nozzle.diameter + 2 * ahead))
 
 
 def rod(deflector: Rod, entry: float, shot_diameter: float) -> np.ndarray:

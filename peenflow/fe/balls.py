@@ -8,7 +8,10 @@ from peenflow.fe.model import Model
 from peenflow.records.deck import Spheres
 
 LEAD = 0.1  # of the radius: how far above the surface a sphere becomes live; pile-up stays well below
-CLEARANCE = 0.2  # of the radius: how far above the surface a leaving sphere is let go
+CLEARANCE = (
+    0.05  # of the radius: how far above the surface a leaving sphere is let go. Above pile-up, yet so low that a
+)
+# grazing rebound in a bore is gone before the opposite wall, whose hit is an impact of its own in the DEM
 SKIN_SPEED = 100.0  # m/s, what surface nodes may do to a list of candidates
 
 
@@ -24,7 +27,7 @@ def initial(model: Model) -> Balls:
     projector, turning = np.tile(np.eye(3), (count, 1, 1)), np.tile(np.eye(3), (count, 1, 1))
     centre = centres(spheres, 0.0)
     touch = spheres.point + radius[:, None] * spheres.normal
-    velocity = spheres.velocity.copy()
+    velocity = spheres.velocity.astype(float)
     for point, normal in model.mirrors:
         on_plane = np.abs((touch - point) @ normal) < 1e-6 * radius
         mirror = np.outer(normal, normal)

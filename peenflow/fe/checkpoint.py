@@ -42,7 +42,7 @@ def save(solver: Solver, path: Path) -> None:
 def resume(solver: Solver, path: Path) -> bool:
     """Take up the state in `path`; False if there is none or it belongs to another deck, version or thread count."""
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with open(path, "rb") as handle, np.load(handle, allow_pickle=False) as file:
             saved = dict(file)
     except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile):
         return False

@@ -38,22 +38,26 @@ def sphere_results(solver: Solver) -> SphereResults | None:
             first[s], last[s] = time[0], time[-1] + step[-1]
             at = np.arange(first[s], last[s], SAMPLING)
             peak[s] = whole[s] * mean_force(time, step, impulse, at).max()
-    return SphereResults(state.balls.velocity.copy(), state.balls.spin.copy(), peak, first, last)
+    touched = np.isfinite(first)[:, None]
+    velocity, spin = np.where(touched, state.balls.velocity, np.nan), np.where(touched, state.balls.spin, np.nan)
+    return SphereResults(velocity, spin, peak, first, last)
 
 
 def side_reaction(solver: Solver, stress: np.ndarray, volumes: np.ndarray) -> float:
     """How far ∫σ₁₁ dA over the middle section is from what the side bears, over ∫|σ₁₁| dA.
 
-    The section's force is the mean over the slab of elements around x = 0: ∫σ₁₁ dV over the slab's thickness. The
+    The section's force is the mean over the slab of elements in the middle: σ₁₁ V over each element's extent. The
     side's is the sum of the nodal forces at x_min (zero within the residual where the sides are free).
     """
     patch, state = solver.deck.patch, solver.state
     x = patch.nodes[patch.hexes, 0]
     middle = 0.5 * (patch.nodes[:, 0].min() + patch.nodes[:, 0].max())
     slab = (x.min(axis=1) <= middle) & (x.max(axis=1) > middle)
-    thickness = float((x.max(axis=1) - x.min(axis=1))[slab].mean())
-    section = float((stress[slab, 0] * volumes[slab]).sum()) / thickness
-    scale = float(np.abs(stress[slab, 0] * volumes[slab]).sum()) / thickness
+    deformed = x[slab] + state.u[patch.hexes[slab], 0]
+    right = x[slab] > x[slab].mean(axis=1, keepdims=True)
+    extent = ((deformed * right).sum(axis=1) - (deformed * ~right).sum(axis=1)) / 4
+    forces = stress[slab, 0] * volumes[slab] / extent
+    section, scale = float(forces.sum()), float(np.abs(forces).sum())
     # Forces are the negative gradient: what the side does to the body is minus their sum.
     reaction = float(state.force.sum(axis=0)[patch.node_sets["side_x_min"], 0].sum())
     return abs(section - reaction) / max(scale, 1e-300)

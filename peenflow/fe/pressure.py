@@ -8,14 +8,16 @@ from peenflow.fe.jit import kernel
 from peenflow.records.deck import PressureLoads
 from peenflow.records.target import Patch
 
+SAMPLES = 8  # along each side of a quad
+
 
 class Footprints(NamedTuple):
-    """Each load's surface quads with their place in the footprint, fixed by the undeformed surface."""
+    """Each load's footprint as samples of surface quads, fixed by the undeformed surface."""
 
     nodes: np.ndarray  # (n,) every node under a load
     start: np.ndarray  # (s + 1,) first row of each load
-    quads: np.ndarray  # (k, 4) node numbers
-    distance: np.ndarray  # (k,) from the load's centre over its final radius, in the footprint's own measure
+    quads: np.ndarray  # (k, 4) node numbers of each sample's quad
+    distance: np.ndarray  # (k,) of the sample from the load's centre, in the footprint's own measure (1: its rim)
     peak: np.ndarray  # (s,) Pa
     t_start: np.ndarray  # (s,) s
     duration: np.ndarray  # (s,) s
@@ -24,6 +26,14 @@ class Footprints(NamedTuple):
     growth: np.ndarray  # (j,)
     rho: np.ndarray  # (i,)
     shape: np.ndarray  # (i,)
+
+
+def samples(corners: np.ndarray) -> np.ndarray:
+    """Points (q, SAMPLES², 3) spread evenly over quads (q, 4, 3), by bilinear interpolation."""
+    steps = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    a, b = (g.ravel() for g in np.meshgrid(steps, steps, indexing="ij"))
+    shape = np.stack([(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b])
+    return np.einsum("cp,qcx->qpx", shape, corners)
 
 
 def footprint_measure(offsets: np.ndarray, corners: int) -> np.ndarray:
@@ -43,23 +53,31 @@ def footprint_measure(offsets: np.ndarray, corners: int) -> np.ndarray:
 
 
 def footprints(loads: PressureLoads, patch: Patch) -> Footprints:
-    """Quads under each load. Offsets are taken in the tangent plane at the load's centre's nearest quad."""
+    """Samples of the quads under each load, in the tangent plane at its centre.
+
+    A quad counts by how many of its SAMPLES² points lie in the footprint, so that the total force is that of the tables
+    although a dent is only a few elements wide.
+    """
     corners = patch.nodes[patch.surface]
-    centres = corners.mean(axis=1)
+    points = samples(corners)
     diagonal = np.linalg.norm(corners[:, 2] - corners[:, 0], axis=1).max()
     normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     start, quads, distances = [0], [np.zeros((0, 4), int)], [np.zeros(0)]
     for point, radius in zip(loads.point, loads.radius, strict=True):
-        offset = centres - point
+        offset = corners.mean(axis=1) - point
         near = np.flatnonzero((offset**2).sum(axis=1) < (1.2 * radius + diagonal) ** 2)
-        normal = normals[near[np.argmin((offset[near] ** 2).sum(axis=1))]] if len(near) else np.array([0.0, 0.0, 1.0])
+        if not len(near):
+            start.append(start[-1])
+            continue
+        normal = normals[near[np.argmin((offset[near] ** 2).sum(axis=1))]]
         along = np.cross([0.0, 1.0, 0.0], normal)
         along /= np.linalg.norm(along)
-        flat = np.stack([offset[near] @ along, offset[near] @ np.cross(normal, along)], axis=1) / radius
-        measure = footprint_measure(flat, loads.corners)
+        apart = points[near] - point
+        flat = np.stack([apart @ along, apart @ np.cross(normal, along)], axis=-1) / radius
+        measure = footprint_measure(flat.reshape(-1, 2), loads.corners)
         inside = measure < 1.0
-        quads.append(patch.surface[near[inside]])
+        quads.append(np.repeat(patch.surface[near], SAMPLES**2, axis=0)[inside])
         distances.append(measure[inside])
         start.append(start[-1] + int(inside.sum()))
     under = np.concatenate(quads).astype(np.int64)
@@ -98,7 +116,7 @@ def load_forces(loads, t, X, u, external):
             quad = loads.quads[k]
             px, py, pz = diagonal(X, u, quad[0], quad[2])
             qx, qy, qz = diagonal(X, u, quad[1], quad[3])
-            eighth = 0.125 * peak * np.interp(loads.distance[k] / reach, loads.rho, loads.shape)
+            eighth = 0.125 / SAMPLES**2 * peak * np.interp(loads.distance[k] / reach, loads.rho, loads.shape)
             for i in quad:
                 external[i, 0] -= eighth * (py * qz - pz * qy)
                 external[i, 1] -= eighth * (pz * qx - px * qz)

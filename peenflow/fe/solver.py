@@ -192,8 +192,8 @@ class Solver:
         """Fail where a figure is no longer finite."""
         if not np.isfinite(self.state.ledger.imbalance):
             raise RunError(
-                f"The solver stopped at {self._now()}: energies are no longer finite. Lower accuracy.time_step, and look "
-                "for a speed or a material constant out of range."
+                f"The solver stopped at {self._now()}: energies are no longer finite. Lower accuracy.time_step, and "
+                "look for a speed or a material constant out of range."
             )
 
     def _now(self) -> str:

@@ -23,18 +23,39 @@ IMPULSE_SHARES = (1e-4, 0.9999)  # a contact lasts from the one to the other
 
 @dataclass(frozen=True)
 class LookUpTable:
-    """Footprint and duration by peak force, from the calibrated speeds; (k,), forces rise from 0."""
+    """Footprint and duration by peak force, from the calibrated speeds; (k,), forces rise from 0.
 
+    Another shot's stresses are the same at the same speed: its forces grow with its area, lengths and times with its
+    diameter.
+    """
+
+    diameter: float  # m, of the calibrated shot
     speed: np.ndarray  # m/s, normal speed
     force: np.ndarray  # N
     radius_squared: np.ndarray  # m²: nearly linear in the force, since the mean pressure is nearly constant
     duration: np.ndarray  # s
+
+    def forces(self, impacts: Impacts) -> np.ndarray:
+        """Peak forces (n,) [N] by normal speed; beyond the table in proportion to it, as a² is."""
+        forces = _in_proportion(impacts.normal_speed, self.speed, self.force)
+        return np.asarray(forces * (impacts.diameter / self.diameter) ** 2)
+
+    def radii(self, force: np.ndarray, diameter: np.ndarray) -> np.ndarray:
+        """Final radii (n,) [m] of the footprints of shots of `diameter` (n,) [m]; beyond the table at one pressure."""
+        size = diameter / self.diameter
+        return np.asarray(size * np.sqrt(_in_proportion(force / size**2, self.force, self.radius_squared)))
+
+    def durations(self, force: np.ndarray, diameter: np.ndarray) -> np.ndarray:
+        """Contact times (n,) [s]."""
+        size = diameter / self.diameter
+        return np.asarray(size * np.interp(force / size**2, self.force, self.duration))
 
 
 def look_up_table(calibration: Calibration) -> LookUpTable:
     """The table of the paper, from single hits at rising speeds."""
     hits = calibration.speeds
     return LookUpTable(
+        diameter=calibration.shot_diameter,
         speed=np.array([0.0] + [hit.speed for hit in hits]),
         force=np.array([0.0] + [hit.peak_force for hit in hits]),
         radius_squared=np.array([0.0] + [float(hit.contact_radius.max()) ** 2 for hit in hits]),
@@ -51,14 +72,13 @@ def force_factor(impacts: Impacts, table: LookUpTable) -> float:
     hard = (impacts.peak_force > 0) & (impacts.normal_speed >= HARD * impacts.normal_speed.max())
     if not hard.any():
         return 1.0
-    expected = np.interp(impacts.normal_speed[hard], table.speed, table.force)
-    return float(np.median(expected / impacts.peak_force[hard]))
+    return float(np.median(table.forces(impacts)[hard] / impacts.peak_force[hard]))
 
 
 def fe_forces(impacts: Impacts, table: LookUpTable) -> np.ndarray:
     """Peak forces (n,) [N] to load the patch with: the DEM's times the force factor, else by normal speed."""
-    by_speed = np.interp(impacts.normal_speed, table.speed, table.force)
-    return np.where(impacts.peak_force > 0, force_factor(impacts, table) * impacts.peak_force, by_speed)
+    scaled = force_factor(impacts, table) * impacts.peak_force
+    return np.where(impacts.peak_force > 0, scaled, table.forces(impacts))
 
 
 def nearest_nodes(points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
@@ -82,7 +102,7 @@ def pressure_loads(impacts: Impacts, placement: Placement, patch: Patch, calibra
     table = look_up_table(calibration)
     borne = impacts.on_patch
     force = fe_forces(impacts, table)[borne]
-    radius = np.sqrt(np.interp(force, table.force, table.radius_squared))
+    radius = table.radii(force, impacts.diameter[borne])
     history, growth = _history(calibration.speeds[-1])
     mean_share = np.trapezoid(2 * RHO * SHAPE, RHO)  # mean pressure of the footprint over that at its centre
     surface_nodes = patch.nodes[patch.node_sets["surface"]]
@@ -91,7 +111,7 @@ def pressure_loads(impacts: Impacts, placement: Placement, patch: Patch, calibra
         radius=radius,
         peak=force / (np.pi * radius**2 * mean_share * (history * growth**2).max()),
         t_start=impacts.t_start[borne],
-        duration=np.interp(force, table.force, table.duration),
+        duration=table.durations(force, impacts.diameter[borne]),
         tau=TAU,
         history=history,
         growth=growth,
@@ -99,6 +119,11 @@ def pressure_loads(impacts: Impacts, placement: Placement, patch: Patch, calibra
         shape=SHAPE,
         corners=0,
     )
+
+
+def _in_proportion(x: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """`values` at x, both rising from 0: between the `known`, beyond the last in proportion to x."""
+    return np.asarray(np.interp(x, known, values) * np.maximum(x / known[-1], 1.0))
 
 
 def _nearest_in_strip(point: np.ndarray, nodes: np.ndarray, x: np.ndarray, width: float) -> int:

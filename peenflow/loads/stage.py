@@ -32,6 +32,7 @@ from peenflow.scene import Scene, Skip
 
 GROUP_INTERVAL = 3.0  # contact times between two groups: one for the hit, two for its waves to leave
 AFTER_LAST = 3.0  # contact times after the last group's start
+FALL = 2.0  # predicted dent depths a sphere may fall before it touches: four hits at one point leave 1.7
 RELAXATION_TIME = 20.0  # times a shear wave crosses the depth; dynamic relaxation needs several
 MARGIN = 1.0  # predicted dent radii between an impact and the patch's edge
 
@@ -194,12 +195,22 @@ def _deck(inputs: Inputs, impacts: Impacts, placement: Placement) -> Deck:
 
 
 def _controls(inputs: Inputs, impacts: Impacts, depth: float) -> Controls:
-    last_start = float(impacts.t_start[impacts.on_patch].max())
+    delay = np.maximum(AFTER_LAST * inputs.contact_time, _falls(inputs, impacts) + inputs.contact_time)
     return Controls(
         title=inputs.title,
-        end_time=last_start + AFTER_LAST * inputs.contact_time,
+        end_time=float((impacts.t_start[impacts.on_patch] + delay).max()),
         time_step_share=inputs.time_step,
         relaxation=inputs.relaxation,
         relaxation_time=RELAXATION_TIME * depth / inputs.material.c_s,
         checkpoint_steps=500,
     )
+
+
+def _falls(inputs: Inputs, impacts: Impacts) -> np.ndarray:
+    """Longest time (n,) [s] each impact on the patch needs from the original surface into dents of earlier ones."""
+    borne = impacts.on_patch
+    uv, start = inputs.surface.unroll(impacts.point[borne]), impacts.t_start[borne]
+    apart = np.linalg.norm(inputs.surface.separation(uv[:, None], uv[None]), axis=-1)
+    dented = ((apart < inputs.dent_radius) & (start[None] < start[:, None])).any(axis=1)
+    depth = inputs.dent_radius**2 / inputs.shot_diameter
+    return np.where(dented, FALL * depth / impacts.normal_speed[borne], 0.0)

@@ -4,8 +4,8 @@ Shorter edges would let one contact spread over many facets and split its force 
 """
 
 import math
+from types import ModuleType
 
-import gmsh
 import numpy as np
 
 from peenflow.errors import InputError
@@ -33,7 +33,7 @@ def bore_facets(radius: float, length: float, shot_diameter: float) -> Facets:
             "than the shot's diameter. Take a larger hole or smaller shots."
         )
     along = max(1, math.floor(length / (AXIAL_EDGE * shot_diameter)))
-    with gmsh_model("bore"):
+    with gmsh_model("bore") as gmsh:
         geo = gmsh.model.geo
         axis = geo.addPoint(0, 0, 0)
         corners = [geo.addPoint(radius * c, radius * s, 0) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
@@ -41,7 +41,7 @@ def bore_facets(radius: float, length: float, shot_diameter: float) -> Facets:
             arc = geo.addCircleArc(start, axis, end)
             geo.mesh.setTransfiniteCurve(arc, quarter + 1)
             geo.extrude([(1, arc)], 0, 0, length, numElements=[along])
-        triangles = _mesh_surfaces()
+        triangles = _mesh_surfaces(gmsh)
     centre = triangles.mean(axis=1)
     inwards = np.stack([-centre[:, 0], -centre[:, 1], np.zeros(len(centre))], axis=-1)
     return _checked(triangles, inwards, shot_diameter)
@@ -50,18 +50,18 @@ def bore_facets(radius: float, length: float, shot_diameter: float) -> Facets:
 def plate_facets(low: np.ndarray, high: np.ndarray, shot_diameter: float) -> Facets:
     """Rectangle of the plane z = 0 between corners `low` and `high` (2,) [m]; normals +z."""
     size = high - low
-    with gmsh_model("plate"):
+    with gmsh_model("plate") as gmsh:
         geo = gmsh.model.geo
         corner, across = geo.addPoint(low[0], low[1], 0), geo.addPoint(low[0], high[1], 0)
         edge = geo.addLine(corner, across)
         count = [max(1, math.floor(side / (PLATE_EDGE * shot_diameter))) for side in size]
         geo.mesh.setTransfiniteCurve(edge, count[1] + 1)
         geo.extrude([(1, edge)], size[0], 0, 0, numElements=[count[0]])
-        triangles = _mesh_surfaces()
+        triangles = _mesh_surfaces(gmsh)
     return _checked(triangles, np.array([0.0, 0.0, 1.0]), shot_diameter)
 
 
-def _mesh_surfaces() -> np.ndarray:
+def _mesh_surfaces(gmsh: ModuleType) -> np.ndarray:
     """Mesh the current model's surfaces: corners (t, 3, 3) of the triangles."""
     gmsh.model.geo.synchronize()
     gmsh.model.mesh.generate(2)

@@ -1,6 +1,5 @@
 """How far the worst hexahedron is from a brick."""
 
-import gmsh
 import numpy as np
 
 from peenflow.mesh.gmsh_session import gmsh_model
@@ -17,7 +16,7 @@ def least_scaled_jacobian(patch: Patch) -> float:
     not see shear.
     """
     elements = np.arange(1, len(patch.hexes) + 1)
-    with gmsh_model("quality"):
+    with gmsh_model("quality") as gmsh:
         volume = gmsh.model.addDiscreteEntity(3)
         gmsh.model.mesh.addNodes(3, volume, np.arange(1, len(patch.nodes) + 1), patch.nodes.ravel())
         gmsh.model.mesh.addElementsByType(volume, _HEXAHEDRON, elements, patch.hexes.ravel() + 1)

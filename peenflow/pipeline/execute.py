@@ -1,13 +1,8 @@
 """One stage: left alone if up to date, else run, its cost, result files and end written down."""
 
 import dataclasses
-import signal
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
-from types import FrameType
 from typing import Literal
 
 from peenflow.console import Console
@@ -19,24 +14,9 @@ from peenflow.pipeline.manifest import Manifest
 from peenflow.pipeline.meter import Cost, Meter
 from peenflow.pipeline.stages import Stage
 from peenflow.scene import Skip
+from peenflow.stop import StoppedError, stoppable
 
 State = Literal["done", "cached", "skipped"]
-
-
-class StoppedError(PeenflowError):
-    """Someone stopped the run; what is finished is kept."""
-
-    def __init__(self, by: signal.Signals) -> None:
-        self.by = "Ctrl-C" if by is signal.SIGINT else by.name
-        self.exit_status = 128 + by
-        super().__init__(
-            f"Stopped by {self.by}. Finished stages, and what the present one has kept, stay: "
-            "run the same command again to go on from here."
-        )
-
-
-class _Terminated(BaseException):
-    """SIGTERM, as an exception that, like KeyboardInterrupt, no `except Exception` swallows."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,26 +28,6 @@ class Outcome:
     reason: str
     cost: Cost  # of the run that made the results, be it this one or an earlier
     predicted_wall: float | None = None  # s
-
-
-@contextmanager
-def stoppable() -> Iterator[None]:
-    """Turn Ctrl-C and SIGTERM within the block into `StoppedError`."""
-
-    def terminate(number: int, frame: FrameType | None) -> None:
-        raise _Terminated
-
-    in_main_thread = threading.current_thread() is threading.main_thread()
-    before = signal.signal(signal.SIGTERM, terminate) if in_main_thread else None
-    try:
-        yield
-    except KeyboardInterrupt:
-        raise StoppedError(signal.SIGINT) from None
-    except _Terminated:
-        raise StoppedError(signal.SIGTERM) from None
-    finally:
-        if in_main_thread:
-            signal.signal(signal.SIGTERM, before)
 
 
 def settle(finding: Finding, out: Path, console: Console) -> Outcome:

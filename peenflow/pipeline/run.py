@@ -8,7 +8,7 @@ from peenflow.console import Console
 from peenflow.errors import InputError
 from peenflow.estimate import estimate
 from peenflow.pipeline import summary
-from peenflow.pipeline.execute import Outcome, settle, stoppable
+from peenflow.pipeline.execute import Outcome, settle
 from peenflow.pipeline.freshness import Finding, assess, examine
 from peenflow.pipeline.lock import locked
 from peenflow.pipeline.stages import STAGES, Records, stage
@@ -40,7 +40,7 @@ def run(request: Request, console: Console) -> list[Outcome]:
 
     Raises:
         InputError, RunError: from a stage; its reason is kept for `status`.
-        StoppedError: by Ctrl-C or SIGTERM.
+        StoppedError: by Ctrl-C or SIGTERM, while a stage ran.
     """
     forced = STAGES[STAGES.index(stage(request.first)) :] if request.first else ()
     wanted = STAGES[: STAGES.index(stage(request.last)) + 1] if request.last else STAGES
@@ -48,7 +48,7 @@ def run(request: Request, console: Console) -> list[Outcome]:
     found = estimate(scene)
     predicted = {row["stage"]: row["predicted_wall_s"] for row in found["stages"]}
     records, outcomes = Records(request.out), list[Outcome]()
-    with locked(request.out), stoppable():
+    with locked(request.out):
         summary.write_effective_case(scene, request.out)
         for each in wanted:
             finding = examine(each, scene, records, request.out)
@@ -71,7 +71,7 @@ def solve_deck(folder: Path, out: Path, console: Console) -> Outcome:
     """
     each, deck = stage("solve"), load_deck(folder)
     inputs = each.module().Inputs(deck=deck)
-    with locked(out), stoppable():
+    with locked(out):
         return settle(assess(each, inputs, out), out, console)
 
 

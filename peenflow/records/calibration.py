@@ -12,9 +12,9 @@ from peenflow.records.fields import of
 class SingleHit:
     """Figures and histories of one hit; forces are the full sphere's (definitions: design §5)."""
 
-    speed: Annotated[float, of("m/s", "normal speed of the shot before the hit")]
+    speed: Annotated[float, of("m/s", "speed of the shot before the hit")]
     hit: Annotated[int, of("1", "1 for the first hit at this point")]
-    cor: Annotated[float, of("1", "coefficient of restitution")]
+    cor: Annotated[float, of("1", "coefficient of restitution, of the normal speed")]
     peak_force: Annotated[float, of("N", "largest centred 12 ns mean of the contact force")]
     contact_time: Annotated[float, of("s", "from 0.01 to 99.99 % of the impulse")]
     impulse: Annotated[float, of("N s", "∫F dt")]

@@ -30,7 +30,7 @@ class Energies:
 class SphereResults:
     """What became of each rigid shot, in the patch frame; forces are the full sphere's."""
 
-    velocity_out: Annotated[np.ndarray, of("m/s", "when it has left the surface", "(s, 3)")]
+    velocity_out: Annotated[np.ndarray, of("m/s", "when it has left the surface; NaN if it never touched", "(s, 3)")]
     spin_out: Annotated[np.ndarray, of("rad/s", "likewise", "(s, 3)")]
     peak_force: Annotated[np.ndarray, of("N", "largest 12 ns mean", "(s,)")]
     first_contact: Annotated[np.ndarray, of("s", "time of first contact; NaN if none", "(s,)")]

@@ -1,6 +1,6 @@
 """How every picture looks, and how it gets onto disk."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,7 +9,6 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.transforms import ScaledTranslation
 
 from peenflow.files import written_whole
 
@@ -17,6 +16,8 @@ from peenflow.files import written_whole
 BLUE, ORANGE, GREEN, RED, SKY, PURPLE = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#CC79A7"
 INK, QUIET, FAINT = "#222222", "#6b7280", "#d1d5db"
 SEQUENTIAL = "viridis"
+LABELS_FROM = 0.42  # of the axes' width: right of where curves fall and rise
+LABEL_HEIGHT = 0.055  # of the axes' height
 
 STYLE: Any = {  # rc_context wants a Literal of its 300 keys
     "font.family": "sans-serif",
@@ -64,21 +65,27 @@ def save(draw: Callable[[], Figure], path: Path) -> None:
         draw().savefig(partial, format="svg", dpi=150, metadata={"Date": None})
 
 
-def mark(axes: Axes, at: tuple[float, float], text: str, lift: float) -> None:
-    """A dot at a figure, named by a text right of the curves that stands `lift` points above it."""
-    axes.plot(*at, "o", color=INK, ms=4.5, zorder=5)
-    beside = axes.get_yaxis_transform() + ScaledTranslation(0, lift / 72, axes.figure.dpi_scale_trans)
-    axes.annotate(
-        text,
-        at,
-        xytext=(0.42, at[1]),
-        textcoords=beside,
-        fontsize=9.5,
-        color=INK,
-        va="center",
-        arrowprops={"arrowstyle": "-", "color": QUIET, "lw": 0.8, "shrinkB": 3},
-        zorder=6,
-    )
+def mark(axes: Axes, marks: Sequence[tuple[tuple[float, float], str]]) -> None:
+    """Dots at figures, each named by a text right of the curves, level with it or as far below as others leave room.
+
+    The axes' limits must be set before.
+    """
+    low, high = axes.get_ylim()
+    free = 1.0  # of the axes' height, below it there is room
+    for at, text in sorted(marks, key=lambda mark: (-mark[0][1], -mark[0][0])):
+        free = min((at[1] - low) / (high - low), free) - LABEL_HEIGHT
+        axes.plot(*at, "o", color=INK, ms=4.5, zorder=5)
+        axes.annotate(
+            text,
+            at,
+            xytext=(LABELS_FROM, free),
+            textcoords="axes fraction",
+            fontsize=9.5,
+            color=INK,
+            va="center",
+            arrowprops={"arrowstyle": "-", "color": QUIET, "lw": 0.8, "shrinkB": 3},
+            zorder=6,
+        )
 
 
 def energy_unit(largest: float) -> tuple[float, str]:

@@ -44,7 +44,8 @@ class Evaluation:
 
     square: Square
     mean: Profile
-    axis: Profile | None  # None: nothing hit the patch
+    hardest: int | None  # row of the hardest impact on the patch; None: nothing hit it
+    axis: Profile | None  # under that impact
     dent_radius: np.ndarray  # m, of every impact, (n,)
     coverage: Coverage
     roughness: Roughness
@@ -64,6 +65,7 @@ def evaluate(peening: Peening, area: float | None, shot_diameter: float, dents: 
     return Evaluation(
         square=square,
         mean=profiles.weighted(patch, response, profiles.overlap(patch, square)),
+        hardest=hardest,
         axis=None if under is None else profiles.weighted(patch, response, under),
         dent_radius=radii,
         coverage=coverage(points, radii, *profiles.extent(patch), peening.exposure),
@@ -82,6 +84,7 @@ def peening_figures(peening: Peening, evaluation: Evaluation) -> figures.Figures
     }
     if peening.stream is not None:
         found["dem"] = figures.dem_figures(peening.stream, peening.impacts)
-    if evaluation.axis is not None:
-        found["residual_axis"] = figures.residual_figures(profiles.residual(evaluation.axis))
+    if evaluation.axis is not None and evaluation.hardest is not None:
+        under = figures.place_figures(peening.impacts, evaluation.hardest)
+        found["residual_axis"] = figures.residual_figures(profiles.residual(evaluation.axis)) | under
     return found

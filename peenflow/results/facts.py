@@ -44,7 +44,7 @@ DEM: Columns = {
     "shots_hitting": ("of them met the part", "", 1, 0),
     "wall_impacts": ("impacts on the part", "", 1, 0),
     "deflector_contacts": ("hits on the deflector", "", 1, 0),
-    "speed_median_m_s": ("median speed", "m/s", 1, 1),
+    "speed_median_m_s": ("median impact speed", "m/s", 1, 1),
     "normal_speed_median_m_s": ("median normal speed", "m/s", 1, 1),
     "duration_s": ("simulated", "ms", 1e3, None),
     "time_step_s": ("time step", "ns", 1e9, None),
@@ -54,7 +54,7 @@ IMPACTS: Columns = {
     "on_patch": ("of them on the patch", "", 1, 0),
     "groups": ("groups that start together", "", 1, 0),
     "slow_dropped": ("too slow, dropped", "", 1, 0),
-    "min_normal_speed_m_s": ("slower than", "m/s", 1, 1),
+    "min_normal_speed_m_s": ("slowest that counts", "m/s", 1, 1),
     "rows": ("contact rows read", "", 1, 0),
     "merged_rows": ("rows joined into impacts", "", 1, 0),
     "duplicates_removed": ("doubles at facet edges removed", "", 1, 0),
@@ -87,6 +87,13 @@ def number(value: float | None, factor: float = 1, digits: int | None = None) ->
         return "–"
     text = f"{value * factor:.4g}" if digits is None else f"{value * factor:,.{digits}f}"
     return text.replace("-", "−").replace(",", "\u2009")
+
+
+def percent(share: float | None) -> str:
+    """A share as a person reads it; less than a millionth is nothing."""
+    if share is None:
+        return "–"
+    return f"{100 * share:.3g} %".replace("-", "−") if abs(share) >= 1e-6 else "0 %"
 
 
 def by_label(rows: Iterable[Figures], columns: Columns) -> list[tuple[str, list[str]]]:

@@ -118,6 +118,12 @@ def residual_figures(residual: Residual) -> Figures:
     }
 
 
+def place_figures(impacts: Impacts, row: int) -> Figures:
+    """Which impact `residual_axis` is under: where it hit, in the part's frame, and how hard."""
+    x, y, z = impacts.point[row]
+    return {"x_m": x, "y_m": y, "z_m": z, "normal_speed_m_s": impacts.normal_speed[row]}
+
+
 def coverage_figures(coverage: Coverage) -> Figures:
     """`coverage`."""
     return {"fraction": coverage.fraction, "avrami": coverage.avrami, "full_at_s": coverage.full_at}

@@ -39,6 +39,7 @@ def report(calibration: Calibration, units: Units, workdir: Path) -> tuple[Figur
     }
     story = Story(
         over="a disc around the shot's axis",
+        under="The column under the hardest impact is the one on the shot's axis.",
         held=False,
         undrawn=None,
         engine=None,

@@ -26,6 +26,7 @@ class Story:
     """What one kind of report has to say beside its figures."""
 
     over: str  # what the mean profile is taken over
+    under: str | None  # where the hardest impact is; None: nothing hit the patch
     held: bool  # the patch's sides are symmetry planes
     undrawn: str | None  # why the surface could not be drawn
     engine: str | None  # of the DEM
@@ -53,7 +54,7 @@ def write(path: Path, figures: Figures, frame: Frame, story: Story) -> None:
         RunError: the disk refuses.
     """
     template = environment()
-    template.filters["number"] = facts.number
+    template.filters |= {"number": facts.number, "percent": facts.percent}
     text = template.get_template("report/index.html.j2").render(
         frame=frame,
         story=story,

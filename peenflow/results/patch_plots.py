@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Circle, Rectangle
 
 from peenflow.geometry import BoltHole
 from peenflow.records.response import Energies
@@ -15,26 +15,32 @@ from peenflow.results.facts import number
 from peenflow.results.profiles import Profile
 from peenflow.results.units import Unit, Units
 
+MAP = (8, 6.2)  # inches
 LEAST_SHARE = 0.005  # of the energy brought in: less is not drawn
 
 
-def impact_map(peening: Peening, evaluation: Evaluation, length: Unit) -> Figure:
-    """All impacts on the unrolled surface, and those on the patch as dents to scale."""
-    figure = drawing.canvas(10.5, 4.8)
-    whole, near = figure.subplots(1, 2)
+def impact_map(peening: Peening, length: Unit) -> Figure:
+    """All impacts on the unrolled surface."""
+    figure = drawing.canvas(*MAP)
+    axes = figure.subplots()
     speed = peening.impacts.normal_speed
-    norm = Normalize(0, speed.max() if speed.size else 1)
     low, high = profiles.extent(peening.patch)
     at = peening.surface.unroll(peening.impacts.point)
     order = np.argsort(speed)  # the hardest on top
-    dots = whole.scatter(*at[order].T * length.factor, c=speed[order], norm=norm, s=14, cmap=drawing.SEQUENTIAL, lw=0)
+    along, across = at[order].T * length.factor
+    dots = axes.scatter(along, across, c=speed[order], norm=_speeds(peening), s=22, cmap=drawing.SEQUENTIAL, lw=0)
     for corner in _corners(peening, low):
-        _outline(whole, corner, high - low, length)
-    whole.set_title(f"All {speed.size} impacts; the box is the patch")
-    _surface_axes(whole, peening, length)
-    _dents(near, peening, evaluation, norm, length)
-    figure.colorbar(dots, ax=near, label="normal speed [m/s]", shrink=0.8)
+        _outline(axes, corner, high - low, length)
+    axes.set_title(f"{speed.size} impacts; the box is the patch")
+    _surface_axes(axes, peening, length)
+    figure.colorbar(dots, ax=axes, label="normal speed [m/s]")
     return figure
+
+
+def _speeds(peening: Peening) -> Normalize:
+    """One scale of colours for both maps."""
+    speed = peening.impacts.normal_speed
+    return Normalize(0, speed.max() if speed.size else 1)
 
 
 def _corners(peening: Peening, low: np.ndarray) -> list[np.ndarray]:
@@ -69,7 +75,31 @@ def _outline(axes: Axes, corner: np.ndarray, size: np.ndarray, length: Unit, sty
     axes.add_patch(box)
 
 
-def _dents(axes: Axes, peening: Peening, evaluation: Evaluation, norm: Normalize, length: Unit) -> None:
+def dent_map(peening: Peening, evaluation: Evaluation, length: Unit) -> Figure:
+    """The dents on the patch to scale, with the evaluation area and the hardest impact."""
+    figure = drawing.canvas(*MAP)
+    axes = figure.subplots()
+    dents = _dents(axes, peening, evaluation, length)
+    low, high = profiles.extent(peening.patch)
+    _outline(axes, low, high - low, length)
+    side = np.full(2, evaluation.square.side)
+    _outline(axes, (low + high - side) / 2, side, length, "--")
+    if evaluation.hardest is not None:
+        u, v = (peening.uv()[evaluation.hardest] * length.factor).tolist()
+        radius = evaluation.dent_radius[evaluation.hardest] * length.factor
+        axes.add_patch(Circle((u, v), radius, fill=False, ec=drawing.INK, lw=1.4, zorder=5))
+        axes.annotate("hardest", (u, v + radius), xytext=(0, 2), textcoords="offset points", ha="center", fontsize=9.5)
+    margin = 0.06 * (high - low)
+    axes.set_xlim(*(low[0] - margin[0], high[0] + margin[0]) * np.full(2, length.factor))
+    axes.set_ylim(*(low[1] - margin[1], high[1] + margin[1]) * np.full(2, length.factor))
+    axes.set_aspect("equal", adjustable="box")
+    axes.set(xlabel=f"along axis 1 from the centre [{length.name}]", ylabel=f"along axis 2 [{length.name}]")
+    axes.set_title("dents on the patch; dashed: evaluation area")
+    figure.colorbar(dents, ax=axes, label="normal speed [m/s]")
+    return figure
+
+
+def _dents(axes: Axes, peening: Peening, evaluation: Evaluation, length: Unit) -> EllipseCollection:
     low, high = profiles.extent(peening.patch)
     uv, width = peening.uv(), 2 * evaluation.dent_radius
     reach = ((uv > low - width[:, None] / 2) & (uv < high + width[:, None] / 2)).all(axis=1)
@@ -82,22 +112,14 @@ def _dents(axes: Axes, peening: Peening, evaluation: Evaluation, norm: Normalize
         offsets=uv[order] * length.factor,
         offset_transform=axes.transData,
         cmap=drawing.SEQUENTIAL,
-        norm=norm,
+        norm=_speeds(peening),
         alpha=0.75,
         edgecolor="white",
         linewidth=0.5,
     )
     dents.set_array(peening.impacts.normal_speed[order])
     axes.add_collection(dents)
-    _outline(axes, low, high - low, length)
-    side = np.full(2, evaluation.square.side)
-    _outline(axes, (low + high - side) / 2, side, length, "--")
-    margin = 0.06 * (high - low)
-    axes.set_xlim(*(low[0] - margin[0], high[0] + margin[0]) * np.full(2, length.factor))
-    axes.set_ylim(*(low[1] - margin[1], high[1] + margin[1]) * np.full(2, length.factor))
-    axes.set_aspect("equal", adjustable="box")
-    axes.set(xlabel=f"along axis 1 from the centre [{length.name}]", ylabel=f"along axis 2 [{length.name}]")
-    axes.set_title("Dents on the patch; dashed: evaluation area")
+    return dents
 
 
 def stress_profile(mean: Profile, axis: Profile | None, over: str, units: Units) -> Figure:
@@ -113,25 +135,27 @@ def stress_profile(mean: Profile, axis: Profile | None, over: str, units: Units)
             label="under the hardest impact",
         )
         strain.plot(axis.depth * length.factor, axis.peeq, color=drawing.ORANGE)
-    for component, style in ((0, ":"), (1, "--")):
+    for component, style, colour in ((0, ":", drawing.INK), (1, "--", drawing.RED)):
         label = f"S{component + 1}{component + 1}, {over}"
         stress.plot(
             mean.depth * length.factor,
             mean.stress[:, component] * pressure.factor,
             style,
-            color=drawing.SKY,
-            lw=1.1,
+            color=colour,
+            lw=1.3,
+            zorder=3,  # on the mean, which they may lie on
             label=label,
         )
     stress.plot(
         mean.depth * length.factor,
         mean.in_plane * pressure.factor,
         color=drawing.BLUE,
-        lw=2.4,
+        lw=3,
         label=f"(S11+S22)/2, {over}",
     )
     strain.plot(mean.depth * length.factor, mean.peeq, color=drawing.BLUE)
     stress.axhline(0, color=drawing.QUIET, lw=0.9)
+    stress.set_ylim(*stress.get_ylim())
     _mark_figures(stress, mean, units)
     stress.legend(loc="lower right")
     stress.set_ylabel(f"residual stress [{pressure.name}]")
@@ -149,15 +173,16 @@ def shown_depth(profile: Profile) -> float:
 
 def _mark_figures(axes: Axes, mean: Profile, units: Units) -> None:
     found, stress, length = profiles.residual(mean), units.stress, units.length
+    marks = []
     if found.depth_of_minimum > mean.depth[0]:
         at = (mean.depth[0] * length.factor, found.surface * stress.factor)
-        drawing.mark(axes, at, f"{stress.text(found.surface)} at the surface", 8)
+        marks.append((at, f"{stress.text(found.surface)} at the surface"))
     if found.minimum < 0:
         at = (found.depth_of_minimum * length.factor, found.minimum * stress.factor)
-        drawing.mark(axes, at, f"{stress.text(found.minimum)} at {length.text(found.depth_of_minimum)}", -8)
+        marks.append((at, f"{stress.text(found.minimum)} at {length.text(found.depth_of_minimum)}"))
     if found.zero_crossing is not None:
-        at = (found.zero_crossing * length.factor, 0.0)
-        drawing.mark(axes, at, f"zero at {length.text(found.zero_crossing)}", -16)
+        marks.append(((found.zero_crossing * length.factor, 0.0), f"zero at {length.text(found.zero_crossing)}"))
+    drawing.mark(axes, marks)
 
 
 def energy_ledger(energies: Energies) -> Figure:

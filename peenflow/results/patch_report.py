@@ -7,6 +7,7 @@ from peenflow.progress import Progress
 from peenflow.results import drawing, patch_plots, profiles, tables, volume
 from peenflow.results.drawing import Picture
 from peenflow.results.evaluation import Evaluation, Peening, peening_figures
+from peenflow.results.facts import number
 from peenflow.results.figures import Figures
 from peenflow.results.page import Story
 from peenflow.results.render import render, view
@@ -31,6 +32,7 @@ def report(
         progress.note(f"The peened surface could not be drawn: {surface}. Install libegl1 and report again.")
     story = Story(
         over=_describe(found, units.length),
+        under=_locate(peening, found, units.length),
         held=peening.sides == "symmetric",
         undrawn=None if isinstance(surface, Picture) else surface,
         engine=None if peening.stream is None else peening.stream.engine,
@@ -50,7 +52,8 @@ def _write_tables(peening: Peening, found: Evaluation, workdir: Path) -> None:
 def _pictures(peening: Peening, found: Evaluation, units: Units, directory: Path) -> dict[str, list[Picture]]:
     profile = partial(patch_plots.stress_profile, found.mean, found.axis, "area mean", units)
     drawing.save(profile, directory / "profile.svg")
-    drawing.save(partial(patch_plots.impact_map, peening, found, units.length), directory / "impacts.svg")
+    drawing.save(partial(patch_plots.impact_map, peening, units.length), directory / "impacts.svg")
+    drawing.save(partial(patch_plots.dent_map, peening, found, units.length), directory / "dents.svg")
     drawing.save(partial(patch_plots.energy_ledger, peening.response.energies), directory / "energy.svg")
     return {
         "stress": [
@@ -64,8 +67,13 @@ def _pictures(peening: Peening, found: Evaluation, units: Units, directory: Path
             Picture(
                 "impacts.svg",
                 "Where the shots hit",
-                "Impacts on the unrolled surface, coloured by the speed along its normal; dents as wide as predicted.",
-            )
+                "Impacts on the unrolled surface, coloured by the speed along its normal.",
+            ),
+            Picture(
+                "dents.svg",
+                "Dents on the patch",
+                "As wide as the calibration, or without one the closed form, gives for their speed.",
+            ),
         ],
         "quality": [
             Picture(
@@ -88,6 +96,18 @@ def _surface(peening: Peening, stress: Unit, vtu: Path, picture: Path) -> Pictur
         picture.name,
         "The peened surface",
         f"Displacement magnified {seen.magnification:g} times; blue is compression, red is tension.",
+    )
+
+
+def _locate(peening: Peening, found: Evaluation, length: Unit) -> str | None:
+    if found.hardest is None:
+        return None
+    speed = number(peening.impacts.normal_speed[found.hardest], digits=1)
+    along, across = (length.text(value) for value in peening.uv()[found.hardest])
+    place = ", ".join(length.text(value) for value in peening.impacts.point[found.hardest])
+    return (
+        f"The hardest impact on the patch, {speed} m/s along the normal, hit {along} along axis 1 and {across} along "
+        f"axis 2 from the patch's centre: at ({place}) in the part's frame."
     )
 
 

@@ -33,7 +33,7 @@ BAR = {
     "title_font_size": 26,
     "label_font_size": 24,
     "font_family": "arial",
-    "fmt": "%.4g",
+    "fmt": "  %.4g",
     "n_labels": 5,
 }
 
@@ -110,7 +110,7 @@ def draw(vtu: Path, picture: Path, seen: View) -> None:
     plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(SIZE))  # Any: its decorators hide its types
     plotter.background_color = "white"
     plotter.add_mesh(
-        shape, scalars=title, cmap="RdBu_r", clim=(-bound, bound), ambient=0.45, diffuse=0.6, scalar_bar_args=BAR
+        shape, scalars=title, cmap="RdBu_r", clim=(-bound, bound), ambient=0.55, diffuse=0.5, scalar_bar_args=BAR
     )
     normal, axis_1 = np.array(seen.normal), np.array(seen.axis_1)
     towards = normal - np.cross(normal, axis_1) + 0.45 * axis_1

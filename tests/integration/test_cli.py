@@ -5,23 +5,14 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
+from command_line import ROOT, command, one_paragraph, peenflow
 
-ROOT = Path(__file__).parents[2]
 PLATE = ROOT / "cases" / "plate"
 COARSE = ("--set", "accuracy.mesh_size=0.1 mm", "--set", "target.patch.length=0.5 mm")
-
-
-def peenflow(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "peenflow", *map(str, arguments)]
-    env = os.environ | {"PYTHONPATH": str(ROOT), "COLUMNS": "200"} | environment
-    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT, env=env)
-
-
-def one_paragraph(text: str) -> bool:
-    return text.startswith("Error: ") and text.count("\n") == 1 and "Traceback" not in text
 
 
 def mesh(out: Path, *more: str) -> subprocess.CompletedProcess[str]:
@@ -122,8 +113,8 @@ def test_init_makes_a_case_that_passes_check(tmp_path: Path):
 def test_a_second_run_is_refused_and_told_the_first(tmp_path: Path):
     hold = "import sys; from pathlib import Path; from peenflow.pipeline.lock import locked\n"
     hold += "with locked(Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
-    command = [sys.executable, "-c", hold, str(tmp_path)]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=ROOT) as first:
+    arguments = [sys.executable, "-c", hold, str(tmp_path)]
+    with subprocess.Popen(arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=ROOT) as first:
         assert first.stdout is not None
         assert first.stdout.readline() == "held\n"
         refused = mesh(tmp_path)
@@ -138,8 +129,8 @@ def test_a_second_run_is_refused_and_told_the_first(tmp_path: Path):
 def test_a_stopped_run_goes_on(tmp_path: Path, number: signal.Signals, status: int):
     """A mesh fine enough to take a second is stopped while it is made."""
     slow = ("--set", "accuracy.mesh_size=0.01 mm")
-    command = [sys.executable, "-m", "peenflow", "run", str(PLATE), "--out", str(tmp_path), "--until", "mesh", *slow]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, cwd=ROOT) as process:
+    arguments = command("run", PLATE, "--out", tmp_path, "--until", "mesh", *slow)
+    with subprocess.Popen(arguments, stderr=subprocess.PIPE, text=True, cwd=ROOT) as process:
         assert process.stderr is not None
         assert process.stderr.readline().startswith("mesh: started")
         process.send_signal(number)
@@ -182,18 +173,34 @@ def test_submit_without_the_scheduler_is_wrong_input(tmp_path: Path):
 
 
 def test_a_reader_that_goes_away_is_no_internal_error():
-    command = f"{sys.executable} -m peenflow check {PLATE} --json | head -c 1"
-    ended = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, cwd=ROOT)
+    piped = f"{sys.executable} -m peenflow check {PLATE} --json | head -c 1"
+    ended = subprocess.run(["bash", "-c", piped], capture_output=True, text=True, check=False, cwd=ROOT)
     assert "Error" not in ended.stderr
     assert "Traceback" not in ended.stderr
 
 
-@pytest.mark.parametrize("command", [("--help",), ("check", PLATE)])
-def test_what_only_looks_imports_nothing_slow(command: tuple[object, ...]):
-    """numba and VTK take their time, and a machine that only looks need not be able to draw."""
+@pytest.mark.parametrize("arguments", [("--help",), ("check", PLATE), ("status", PLATE)])
+def test_what_only_looks_imports_nothing_slow(arguments: tuple[object, ...]):
+    """They take their time, and a machine that only looks need not be able to mesh or draw."""
     code = "import sys; from peenflow.cli import main\ntry: main()\nexcept SystemExit: pass\n"
-    code += "print([m for m in ('numba', 'vtk', 'vtkmodules', 'pyvista') if m in sys.modules])"
+    code += "print([m for m in ('numba', 'gmsh', 'vtk', 'vtkmodules', 'pyvista') if m in sys.modules])"
     ended = subprocess.run(
-        [sys.executable, "-c", code, *map(str, command)], capture_output=True, text=True, check=True, cwd=ROOT
+        [sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, check=True, cwd=ROOT
     )
     assert ended.stdout.splitlines()[-1] == "[]", ended.stderr
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_before_any_stage_is_no_accident(tmp_path: Path, number: signal.Signals, status: int):
+    """It comes while the case is read: the named pipe it is read from keeps it waiting."""
+    os.mkfifo(tmp_path / "case.toml")
+    arguments = command("run", tmp_path)
+    with (
+        subprocess.Popen(arguments, stderr=subprocess.PIPE, text=True, cwd=ROOT) as process,
+        open(tmp_path / "case.toml", "w"),  # opens once the other side reads
+    ):
+        time.sleep(0.1)
+        process.send_signal(number)
+        _, said = process.communicate(timeout=60)
+    assert process.returncode == status
+    assert one_paragraph(said), said

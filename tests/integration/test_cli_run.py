@@ -1,42 +1,25 @@
 """A small case from end to end: nine given impacts on a coarse block."""
 
 import json
-import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import ROOT, command, peenflow, states
 
 from peenflow.records import hdf5
 from peenflow.records.response import Response
 
-ROOT = Path(__file__).parents[2]
 DRAFT = ("--set", "accuracy.preset=draft")
 COARSE = (*DRAFT, "--set", "accuracy.mesh_size=0.06 mm")
 FINER = (*DRAFT, "--set", "accuracy.mesh_size=0.04 mm")
-STAGES = ["mesh", "calibrate", "dem", "translate", "solve", "report"]
-
-
-def command(*arguments: object) -> list[str]:
-    return [sys.executable, "-m", "peenflow", *map(str, arguments)]
-
-
-def peenflow(*arguments: object) -> subprocess.CompletedProcess[str]:
-    env = os.environ | {"COLUMNS": "200"}
-    return subprocess.run(command(*arguments), capture_output=True, text=True, check=False, cwd=ROOT, env=env)
 
 
 def run(out: Path, *settings: str) -> subprocess.CompletedProcess[str]:
     return peenflow("run", "cases/patch", "--out", out, *settings)
-
-
-def states(told: subprocess.CompletedProcess[str]) -> dict[str, str]:
-    rows = [line.split() for line in told.stdout.splitlines()]
-    return {row[0]: row[1] for row in rows if row and row[0] in STAGES}
 
 
 @pytest.fixture(scope="module")

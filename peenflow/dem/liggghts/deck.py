@@ -1,4 +1,10 @@
-"""The LIGGGHTS input of one shard, and the numbers it is made of."""
+"""The LIGGGHTS input of one shard, and the numbers it is made of.
+
+Shots wait for their turn behind the nozzle, and until they pass it LIGGGHTS moves them at a constant velocity: to
+whatever meets them they are infinitely heavy, and a ricochet would leave them faster than the nozzle throws. So a
+guard disc before each nozzle (fix massflow/mesh, delete_atoms) takes out every shot that crosses it backwards; the
+real nozzle stands there, and nothing behind it would send the shot back to the part.
+"""
 
 import math
 from dataclasses import dataclass
@@ -19,6 +25,8 @@ LONGEST_PACKET = 25e-3  # m behind the nozzle: keeps the domain small where shot
 SHORTEST_PACKET = 4  # shot diameters: LIGGGHTS wants 3 radii
 DENSEST_STREAM = 0.2  # volume fraction up to which random insertion finds room
 LEAST_DRAWS, SPREAD_OF_DRAWS = 1001, 100_000  # random places drawn before the first shot's
+SKIN = 2.25  # shot diameters: how far beyond contact neighbours are listed
+GUARD = 1.1 + SKIN / 2  # shot diameters from nozzle to guard: a deleted shot flies on until lists are renewed (skin/2)
 LEAST_RESTITUTION = 0.05  # LIGGGHTS refuses this and less
 
 
@@ -57,7 +65,9 @@ def build(stream: Stream, shard: int) -> Deck:
         entry = float(stream.walls.triangles[..., 2].min())
         meshes["deflector"] = bodies.rod(stream.rod, entry, stream.shot.diameter)
     walls = tuple(meshes)
-    meshes |= {f"nozzle{i}": bodies.disc(nozzle) for i, nozzle in enumerate(stream.nozzles)}
+    for i, nozzle in enumerate(stream.nozzles):
+        meshes[f"nozzle{i}"] = bodies.disc(nozzle)
+        meshes[f"guard{i}"] = bodies.guard(nozzle, GUARD * stream.shot.diameter)
     steps = _steps(stream)
     seeds = [prime_seed(stream.seed, shard, purpose) for purpose in range(2 + len(packets))]
     deck = templates.environment().get_template(f"liggghts/{DECK}.j2")
@@ -66,7 +76,7 @@ def build(stream: Stream, shard: int) -> Deck:
         walls=walls,
         packets=packets,
         box=domain(stream, meshes, packets),
-        skin=2.25 * stream.shot.diameter,
+        skin=SKIN * stream.shot.diameter,
         dump=DUMP,
         columns=[f"c_contacts[{column + 1}]" for column in range(COLUMNS)],
         travel=_travel_steps(stream, steps),

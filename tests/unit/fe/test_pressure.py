@@ -34,6 +34,20 @@ def test_the_total_is_pressure_times_area(corners):
     assert np.abs(total[:2]).max() < 1e-9 * abs(total[2])
 
 
+@pytest.mark.parametrize("elements", [2.0, 3.0, 5.0])
+@pytest.mark.parametrize("reach", [0.3, 0.6, 1.0])
+def test_the_total_is_right_on_a_mesh_as_coarse_as_a_dent(elements, reach):
+    size = 0.5e-3 / elements
+    lines = size * (np.arange(-8, 9) + 0.3)
+    patch = build_block(lines, lines, np.array([size]))
+    fixed = (np.array([0.0, 1.0]), np.array([reach, reach]))
+    external = np.zeros_like(patch.nodes)
+    pressure.load_forces(
+        pressure.footprints(load(growth=fixed), patch), 0.5e-6, patch.nodes, np.zeros_like(patch.nodes), external
+    )
+    assert external[:, 2].sum() == pytest.approx(-2e9 * np.pi * (reach * 0.5e-3) ** 2, rel=0.05)
+
+
 def test_an_octagon_is_no_circle():
     measure = pressure.footprint_measure(np.array([[1.0, 0.0], [np.cos(np.pi / 8), np.sin(np.pi / 8)]]), 8)
     assert measure[0] > 1.0 > measure[1]

@@ -59,6 +59,24 @@ def test_forces_are_the_dems_times_the_factor_or_follow_the_normal_speed():
     assert pressure.fe_forces(impacts([40, 30], [np.nan, np.nan]), table) == pytest.approx([36.0, 27.0])
 
 
+def test_beyond_the_table_the_footprint_grows_at_one_pressure():
+    table = pressure.look_up_table(calibration())
+    size = np.full(2, 3.556e-4)
+    radii = table.radii(np.array([58.0, 116.0]), size)
+    assert radii[1] ** 2 == pytest.approx(2 * radii[0] ** 2)
+    assert table.forces(impacts([62.5, 125.0], [np.nan, np.nan])) == pytest.approx([58.0, 116.0])
+
+
+def test_another_shots_loads_scale_with_its_diameter():
+    table, known = pressure.look_up_table(calibration()), impacts([40, 40], [np.nan, np.nan])
+    mixed = type(known)(**{**vars(known), "diameter": 3.556e-4 * np.array([1.0, 2.0])})
+    force = table.forces(mixed)
+    assert force == pytest.approx([36.0, 144.0])
+    radii, durations = table.radii(force, mixed.diameter), table.durations(force, mixed.diameter)
+    assert radii[1] == pytest.approx(2 * radii[0])
+    assert durations[1] == pytest.approx(2 * durations[0])
+
+
 def test_loads_press_with_the_impacts_force_and_momentum():
     patch = build_block(np.linspace(-3e-4, 3e-4, 31), np.linspace(-3e-4, 3e-4, 31), np.full(2, 2e-5))
     loads = pressure.pressure_loads(impacts([40], [np.nan]), PLATE.placement(np.zeros(2)), patch, calibration())

@@ -78,6 +78,19 @@ def test_ungrouped_impacts_keep_their_times_from_the_first(tmp_path):
     assert impacts.group.tolist() == [0, 1]
 
 
+def test_the_run_waits_for_a_slow_sphere_that_falls_into_an_earlier_dent(tmp_path):
+    """A dent of the fast one is 12.5 µm deep: the slow one needs 6.25 µs to its ground, where four hits left it 1.7
+    times as deep."""
+    plate = Plate(1e-3)
+    ends = {}
+    for apart in (0.02e-3, 0.2e-3):
+        hits = table(plate, [[0, 0], [apart, 0]], [60.0, 2.0])
+        deck = stage.run(case(plate, hits, min_normal_speed=1.0), tmp_path, Silent()).deck
+        ends[apart] = deck.controls.end_time - deck.spheres.t_start[1]
+    assert ends[0.02e-3] > 1.7 * 6.25e-6 + 4.5e-7
+    assert ends[0.2e-3] == pytest.approx(3 * 4.5e-7)
+
+
 def test_on_a_hole_spheres_lie_on_the_bent_patch_in_its_frame(tmp_path):
     centre = (12.5e-3, 1.1e-3)
     hits = table(HOLE, [[12.6e-3, 1.3e-3], [12.5e-3, 1.1e-3]], [50.0, 60.0])

@@ -16,11 +16,12 @@ from peenflow.errors import InputError
 from peenflow.geometry import BoltHole, Plate
 from peenflow.mesh.stage import Inputs
 from peenflow.pipeline import manifest
-from peenflow.pipeline.execute import Outcome, StoppedError, settle
+from peenflow.pipeline.execute import Outcome, settle
 from peenflow.pipeline.freshness import Finding, assess
 from peenflow.pipeline.stages import stage
 from peenflow.progress import Task
 from peenflow.scene import Skip
+from peenflow.stop import StoppedError
 
 MESH = stage("mesh")
 BLOCK = Inputs(
