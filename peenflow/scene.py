@@ -9,6 +9,8 @@ from peenflow.case.model import Case, Nozzle
 from peenflow.geometry import Surface
 from peenflow.records.material import Material
 
+STANDARD_GRAVITY = 9.80665  # m/s²
+
 
 @dataclass(frozen=True)
 class ShotProperties:

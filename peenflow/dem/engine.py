@@ -68,7 +68,7 @@ class Stream:
     rod: Rod | None
     shot_restitution: Annotated[float, of("1", "shot against shot")]
     shot_collisions: Annotated[bool, of("1", "shots meet each other")]
-    gravity: Annotated[bool, of("1", "9.81 m/s² along −z")]
+    gravity: Annotated[bool, of("1", "`STANDARD_GRAVITY` acts along −z")]
     duration: Annotated[float, of("s", "of shooting; `FLUSH` follows")]
     seed: Annotated[int, of("1", "of the random numbers")]
     time_step_share: Annotated[float, of("1", "time step over the Rayleigh step")]

@@ -117,7 +117,10 @@ def _nozzle(section: NozzleSection, rate: float) -> Nozzle:
 
 
 def _rod(deflector: Deflector, moves: bool) -> Rod:
-    """A rod whose motion does not matter stays where its travel starts."""
+    """A rod whose motion does not matter stays where its travel starts.
+
+    It is a wall like the target (`Walls`): its E, ν and restitution are the target's, for want of its own in the case.
+    """
     return Rod(
         tip=deflector.tip,
         angle=deflector.angle,

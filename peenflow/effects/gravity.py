@@ -1,15 +1,14 @@
 """Gravity on the flying shots."""
 
 from peenflow.effects.effect import Effect, Estimate, Situation
-
-STANDARD = 9.80665  # m/s²
+from peenflow.scene import STANDARD_GRAVITY
 
 
 def _estimate(situation: Situation) -> Estimate:
     if situation.flight is None:
         return Estimate(None, "no flight in this case")
     speed = min(nozzle.speed for nozzle in situation.case.nozzle)
-    share = STANDARD * situation.flight / speed**2
+    share = STANDARD_GRAVITY * situation.flight / speed**2
     return Estimate(
         share, f"g L/v² over {situation.flight * 1e3:.0f} mm at {speed:g} m/s: change of velocity over speed"
     )

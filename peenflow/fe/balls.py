@@ -8,10 +8,9 @@ from peenflow.fe.model import Model
 from peenflow.records.deck import Spheres
 
 LEAD = 0.1  # of the radius: how far above the surface a sphere becomes live; pile-up stays well below
-CLEARANCE = (
-    0.05  # of the radius: how far above the surface a leaving sphere is let go. Above pile-up, yet so low that a
-)
-# grazing rebound in a bore is gone before the opposite wall, whose hit is an impact of its own in the DEM
+# Of the radius, how far above the surface a leaving sphere is let go: above pile-up, yet so low that a grazing rebound
+# in a bore is gone before it meets the wall again, for that hit is an impact of its own in the DEM.
+CLEARANCE = 0.05
 SKIN_SPEED = 100.0  # m/s, what surface nodes may do to a list of candidates
 
 

@@ -22,7 +22,7 @@ def clean(out: Path) -> list[Path]:
         )
     removed = []
     with locked(out):
-        patterns = [p for stage in STAGES for p in (*stage.own, *stage.results)]
+        patterns = [p for stage in STAGES for p in (*stage.own, *stage.checked, *stage.results)]
         for path in sorted({path for pattern in (*patterns, *_BESIDE_STAGES) for path in out.glob(pattern)}):
             removed.append(path)
             remove(path)

@@ -41,6 +41,7 @@ class Stage:
     own: tuple[
         str, ...
     ] = ()  # patterns of what it keeps to go on from, emptied with the results when its inputs change
+    checked: tuple[str, ...] = ()  # patterns of what it keeps and itself checks before it takes it: never emptied
     templates: tuple[str, ...] = ()  # folders of templates it fills in
 
     def module(self) -> StageModule:
@@ -59,7 +60,7 @@ STAGES = (
         "contacts",
         ("mesh", "calibrate"),
         ("contacts.h5",),
-        own=("dem",),
+        checked=("dem",),  # each shard knows what it was made from: more shards do not run the first ones again
         templates=("liggghts",),
     ),
     Stage(

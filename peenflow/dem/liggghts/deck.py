@@ -17,6 +17,7 @@ from peenflow.dem.engine import FLUSH, Nozzle, Stream
 from peenflow.dem.liggghts import stl
 from peenflow.dem.liggghts.seeds import prime_seed
 from peenflow.errors import InputError
+from peenflow.scene import STANDARD_GRAVITY
 
 DECK, DUMP = "deck.in", "contacts.dump"
 COLUMNS = 19  # of the contact dump (see `dump`)
@@ -80,6 +81,7 @@ def build(stream: Stream, shard: int) -> Deck:
         dump=DUMP,
         columns=[f"c_contacts[{column + 1}]" for column in range(COLUMNS)],
         travel=_travel_steps(stream, steps),
+        gravity=STANDARD_GRAVITY,
         steps=steps,
         thermo=max(1, steps // 200),
         seeds=seeds,

@@ -8,7 +8,7 @@ from pathlib import Path
 from peenflow.dem.engine import Stream
 from peenflow.dem.liggghts import deck
 from peenflow.dem.liggghts.process import Process, require_tools
-from peenflow.dem.liggghts.shard import Shard
+from peenflow.dem.liggghts.shard import Finished, Shard
 from peenflow.progress import Progress
 from peenflow.records.contacts import Contacts
 
@@ -24,25 +24,28 @@ class Liggghts:
         all_shards = [
             Shard(stream, deck.build(stream, index), directory / f"shard-{index:03d}") for index in range(shards)
         ]
-        contacts = {shard.directory: shard.finished() for shard in all_shards}
-        missing = [shard for shard in all_shards if contacts[shard.directory] is None]
+        kept = {shard.directory: finished for shard in all_shards if (finished := shard.finished())}
+        missing = [shard for shard in all_shards if shard.directory not in kept]
         if missing:
             require_tools()
-        if kept := shards - len(missing):
-            progress.note(f"{kept} of {shards} shards were finished before and are kept")
+        if kept:
+            progress.note(f"{len(kept)} of {shards} shards were finished before and are kept")
         with progress.task("LIGGGHTS steps", sum(shard.deck.steps for shard in missing)) as task:
             fresh = run_all(missing, task.update)
-        return [contacts[shard.directory] or fresh[shard.directory] for shard in all_shards]
+        done = [(kept | fresh)[shard.directory] for shard in all_shards]
+        if spoilt := sum(finished.spoilt for finished in done):
+            progress.note(f"{spoilt} shots left out from where LIGGGHTS noticed a contact too late and threw them off")
+        return [finished.contacts for finished in done]
 
 
-def run_all(shards: list[Shard], report: Callable[[float], None]) -> dict[Path, Contacts]:
+def run_all(shards: list[Shard], report: Callable[[float], None]) -> dict[Path, Finished]:
     """Run the shards, `AT_ONCE` at a time, telling `report` the steps done; no process outlives this call.
 
     Raises:
         RunError: one failed; the others are ended.
     """
     waiting, running, done = deque(shards), dict[Path, tuple[Shard, Process]](), 0
-    contacts: dict[Path, Contacts] = {}
+    finished: dict[Path, Finished] = {}
     try:
         while waiting or running:
             while waiting and len(running) < AT_ONCE:
@@ -54,10 +57,10 @@ def run_all(shards: list[Shard], report: Callable[[float], None]) -> dict[Path, 
                 status = process.status()
                 if status is not None:
                     del running[shard.directory]
-                    contacts[shard.directory] = shard.collect(status)
+                    finished[shard.directory] = shard.collect(status)
                     done += shard.deck.steps
             report(done + sum(process.step() for _, process in running.values()))
     finally:
         for _, process in running.values():
             process.kill()
-    return contacts
+    return finished

@@ -1,7 +1,9 @@
 """One shard: its directory, from deck to contacts, kept once finished."""
 
+import dataclasses
 import hashlib
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Annotated
 
@@ -10,13 +12,14 @@ import numpy as np
 from peenflow.dem.engine import SURFACES, Stream
 from peenflow.dem.liggghts import deck as decks
 from peenflow.dem.liggghts import dump, log
+from peenflow.dem.liggghts.late import spoilt
 from peenflow.dem.liggghts.process import LOG
 from peenflow.dem.liggghts.restore import Law, restore
 from peenflow.errors import InputError
 from peenflow.files import write_text_whole
 from peenflow.records import hdf5
 from peenflow.records.contacts import Contacts
-from peenflow.records.fields import of
+from peenflow.records.fields import of, quantities
 
 RECORD = "contacts.h5"
 
@@ -26,7 +29,8 @@ class Finished:
     """A shard's record: it is there only if the run was whole."""
 
     contacts: Contacts
-    deck: Annotated[str, of("", "SHA-256 of the deck and the facets it came from")]
+    deck: Annotated[str, of("", "SHA-256 of the deck, the facets and the code it came from")]
+    spoilt: Annotated[int, of("1", "shots left out from where LIGGGHTS noticed a contact too late")]
 
 
 @dataclass(frozen=True)
@@ -39,19 +43,19 @@ class Shard:
 
     @property
     def digest(self) -> str:
-        """Of all that the run depends on."""
-        whole = hashlib.sha256()
+        """Of all that the run's contacts depend on, whatever the number of shards."""
+        whole = hashlib.sha256(_sources())
         for name, text in sorted(self.deck.files.items()):
             whole.update(f"{name}\n{text}\n".encode())
         return whole.hexdigest()
 
-    def finished(self) -> Contacts | None:
-        """The contacts of an earlier run of the same deck, if there are any."""
+    def finished(self) -> Finished | None:
+        """What an earlier run of the same deck left, if there is any."""
         try:
             record = hdf5.load(Finished, self.directory / RECORD)
         except InputError:  # none, damaged or of another version: all mean that the shard must run
             return None
-        return record.contacts if record.deck == self.digest else None
+        return record if record.deck == self.digest else None
 
     def write(self) -> None:
         """Deck and facets into the shard's directory."""
@@ -59,7 +63,7 @@ class Shard:
         for name, text in self.deck.files.items():
             write_text_whole(self.directory / name, text)
 
-    def collect(self, status: int) -> Contacts:
+    def collect(self, status: int) -> Finished:
         """Check the run that ended with exit `status`, keep its contacts and remove its dump.
 
         Raises:
@@ -67,10 +71,18 @@ class Shard:
         """
         told = log.read(self.directory / LOG)
         log.check(told, self.deck, status, self.directory / LOG)
-        contacts = self._contacts(told)
-        hdf5.save(Finished(contacts, self.digest), self.directory / RECORD)
+        contacts, spoilt_shots = self._sound(self._contacts(told))
+        finished = Finished(contacts, self.digest, spoilt_shots)
+        hdf5.save(finished, self.directory / RECORD)
         (self.directory / decks.DUMP).unlink()
-        return contacts
+        return finished
+
+    def _sound(self, contacts: Contacts) -> tuple[Contacts, int]:
+        """The contacts without those of spoilt shots, and how many shots these are."""
+        step = np.rint(contacts.t / contacts.time_step).astype(np.int64)
+        out = spoilt(self.stream, step, contacts.shot, contacts.surface, contacts.overlap)
+        rows = {name: getattr(contacts, name)[~out] for name, told in quantities(Contacts).items() if told.shape}
+        return dataclasses.replace(contacts, **rows), len(np.unique(contacts.shot[out]))
 
     def _contacts(self, told: log.Log) -> Contacts:
         stream, law = self.stream, Law.of(self.stream.shot, self.stream.walls)
@@ -100,6 +112,15 @@ class Shard:
             engine=told.version,
             time_step=stream.time_step,
         )
+
+
+@cache
+def _sources() -> bytes:
+    """SHA-256 of the code that makes contacts of a run: with other code, a shard runs again."""
+    package = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("*.py")):
+        package.update(path.read_bytes())
+    return package.digest()
 
 
 def shot_numbers(insertions: tuple[log.Insertion, ...], step: np.ndarray, number: np.ndarray) -> np.ndarray:
