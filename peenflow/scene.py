@@ -68,12 +68,12 @@ class Scene:
     case: Case
     directory: Path  # where the case lies; files it names are relative to it
     surface: Surface | None  # None: a calibration alone
-    shot: ShotProperties
+    shot: ShotProperties  # the largest, where a table of impacts gives each its diameter
     material: Material  # `rate` and `thermal` are None where their effect is off
     knobs: Knobs
     effects: dict[str, Decision]
     speed: float  # m/s, the fastest nozzle's (or single shot's, or impact's)
-    dent_radius: float  # m, predicted by the closed form at `speed`, normal incidence
+    dent_radius: float  # m, predicted by the closed form for `shot` at `speed`, normal incidence
     contact_time: float  # s, likewise
 
 

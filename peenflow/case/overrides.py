@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from peenflow.case.lines import KeyPath
+from peenflow.case.problems import takes_text
 from peenflow.errors import InputError
 
 TWINS = {"diameter": "size", "size": "diameter", "rate": "mass_rate", "mass_rate": "rate"}
@@ -24,23 +25,24 @@ def apply(data: dict[str, Any], settings: Sequence[str]) -> tuple[dict[str, Any]
         key, equals, text = setting.partition("=")
         if not equals or not all(part.strip() for part in key.split(".")):
             raise InputError(f'--set {setting}: write --set key=value, like --set shot.diameter="0.43 mm"')
-        path = _place(data, [part.strip() for part in key.split(".")], _value(text.strip()), setting)
+        path = _place(data, [part.strip() for part in key.split(".")], text.strip(), setting)
         placed[path] = setting
     for path in placed:
         _drop_twin(data, path, placed)
     return data, placed
 
 
-def _value(text: str) -> Any:
-    """The value as TOML reads it; what is not TOML is a string whose quotes the shell took."""
+def _value(text: str, is_text: bool) -> Any:
+    """The value as TOML reads it; what is not TOML, or not text where the key takes text, has lost its quotes."""
     try:
         parsed = tomllib.loads(f"value = {text}")
     except tomllib.TOMLDecodeError:
         return text
-    return parsed["value"] if len(parsed) == 1 else text
+    value = parsed["value"]
+    return text if len(parsed) > 1 or (is_text and not isinstance(value, str)) else value
 
 
-def _place(data: dict[str, Any], parts: list[str], value: Any, setting: str) -> KeyPath:
+def _place(data: dict[str, Any], parts: list[str], text: str, setting: str) -> KeyPath:
     node: Any = data
     path: KeyPath = ()
     for part in parts:
@@ -56,7 +58,7 @@ def _place(data: dict[str, Any], parts: list[str], value: Any, setting: str) -> 
             raise InputError(f"--set {setting}: {'.'.join(map(str, path))} is a value, not a table with a key {part}")
         path = (*path, step)
         if len(path) == len(parts):
-            node[step] = value
+            node[step] = _value(text, takes_text(path, data))
         else:
             node = node.setdefault(step, {}) if isinstance(node, dict) else node[step]
     return path

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Iterator
 
 from peenflow.case import units
+from peenflow.case.accuracy import patch_depth
 from peenflow.case.lines import KeyPath
 from peenflow.case.model import BoltHoleGeometry, Case, Deflector, Nozzle, PatchSize, PlateGeometry
 from peenflow.case.problems import Problem
@@ -46,6 +47,23 @@ def _patch_in_part(case: Case) -> Iterator[Problem]:
     for key, depth in depths.items():
         if depth is not None and depth > geometry.thickness:
             yield Problem(key, f"{_mm(depth)} is deeper than the plate, {_mm(geometry.thickness)}")
+
+
+def _far_field(case: Case) -> Iterator[Problem]:
+    """A patch as deep as its plate has a free or supported back, nothing behind it."""
+    geometry = case.target.geometry
+    if not isinstance(geometry, PlateGeometry) or case.target.patch is None:
+        return
+    if patch_depth(case, shots.properties(case.shot)) < geometry.thickness * (1 - 1e-9):
+        return
+    wishes = {("accuracy", "boundary"): case.accuracy.boundary, ("effects", "far_field"): case.effects.far_field}
+    for key, wish in wishes.items():
+        if wish in ("far-field", "on"):
+            yield Problem(
+                key,
+                f'"{wish}" asks for a body behind the patch, but the patch is as deep as the plate, '
+                f"{_mm(geometry.thickness)}: remove this key, or make the patch shallower (accuracy.depth)",
+            )
 
 
 def _patch_in_hole(hole: BoltHoleGeometry, patch: PatchSize) -> Iterator[Problem]:
@@ -185,6 +203,7 @@ def _number_of_shots(case: Case) -> Iterator[Problem]:
 RULES: tuple[Callable[[Case], Iterator[Problem]], ...] = (
     _shot_in_hole,
     _patch_in_part,
+    _far_field,
     _nozzles,
     _deflector,
     _number_of_shots,

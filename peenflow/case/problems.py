@@ -113,6 +113,23 @@ def _unknown(path: KeyPath, data: dict[str, Any]) -> str:
 
 def known_keys(path: KeyPath, data: dict[str, Any]) -> list[str]:
     """The keys a table of the case file may have; where its `kind` decides, those of that kind."""
+    return [field.alias or name for model in _models_at(path, data) for name, field in model.model_fields.items()]
+
+
+def takes_text(path: KeyPath, data: dict[str, Any]) -> bool:
+    """Whether the key at `path`, whose table is in `data`, is a string in every sense (no quantity, no choice)."""
+    *outer, key = path
+    annotations = [
+        field.annotation
+        for model in _models_at(tuple(outer), data)
+        for name, field in model.model_fields.items()
+        if key == (field.alias or name)
+    ]
+    kinds = [set(typing.get_args(annotation) or (annotation,)) - {types.NoneType} for annotation in annotations]
+    return bool(kinds) and all(kind == {str} for kind in kinds)
+
+
+def _models_at(path: KeyPath, data: dict[str, Any]) -> list[type[BaseModel]]:
     models: list[type[BaseModel]] = [Case]
     node: Any = data
     for step in path:
@@ -120,8 +137,13 @@ def known_keys(path: KeyPath, data: dict[str, Any]) -> list[str]:
         if isinstance(step, str):
             models = [inner for model in models for inner in _inner(model, step)]
             if isinstance(node, dict) and "kind" in node:
-                models = [m for m in models if node["kind"] in typing.get_args(m.model_fields["kind"].annotation)]
-    return [field.alias or name for model in models for name, field in model.model_fields.items()]
+                models = [m for m in models if node["kind"] in _kinds(m)]
+    return models
+
+
+def _kinds(model: type[BaseModel]) -> tuple[str, ...]:
+    field = model.model_fields.get("kind")
+    return typing.get_args(field.annotation) if field else ()
 
 
 def _inner(model: type[BaseModel], key: str) -> Iterator[type[BaseModel]]:

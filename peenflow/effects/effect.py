@@ -16,7 +16,8 @@ class Situation:
     case: Case
     shot: ShotProperties
     material: Material  # with all its terms
-    dent: Dent  # predicted at the case's speed, normal incidence
+    dent: Dent  # predicted at the case's speed, normal incidence, of the largest shot
+    restitution: float  # shot against wall in the DEM: the case's, or the predicted one where it is calibrated
     depth: float | None  # of the FE patch; None: there is none
     flight: float | None  # m, from the nozzle to what the shots meet first; None: nothing flies
     slant: float  # tangential over normal speed of the hits, the most oblique ones'

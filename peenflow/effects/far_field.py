@@ -1,4 +1,7 @@
-"""The body behind the patch, as springs and dashpots on its bottom instead of a fixed one."""
+"""The body behind the patch, as springs and dashpots on its bottom instead of a fixed one.
+
+Under a single shot the same stands at the sides and the bottom of the unit cell.
+"""
 
 import math
 
@@ -9,7 +12,7 @@ from peenflow.effects.effect import Effect, Estimate, Situation
 def _estimate(situation: Situation) -> Estimate:
     geometry, depth = situation.case.target.geometry, situation.depth
     if depth is None:
-        return Estimate(None, "no patch in this case (the unit cell absorbs)")
+        return Estimate(1.0, "the unit cell is cut out of a body: fixed faces would throw the hit's waves back at it")
     if isinstance(geometry, PlateGeometry) and geometry.thickness <= depth * (1 + 1e-9):
         return Estimate(None, "the patch is as deep as the plate: nothing lies behind it")
     poisson, a = situation.material.poisson, situation.dent.radius
@@ -21,9 +24,9 @@ def _estimate(situation: Situation) -> Estimate:
 
 EFFECT = Effect(
     name="far_field",
-    stage="solve",
+    stage="calibrate, solve",
     criterion="(3−2ν)/(π(1−ν))·a/L: displacement at depth L [m] below a point force over the indentation of a contact "
-    "of radius a [m] (Boussinesq; Johnson, Contact Mechanics, §3.2 and eq. 3.36)",
+    "of radius a [m] (Boussinesq; Johnson, Contact Mechanics, §3.2 and eq. 3.36); 1 for the unit cell of a single shot",
     cost="three springs and dashpots a bottom node, under 1 % of a step",
     estimate=_estimate,
 )

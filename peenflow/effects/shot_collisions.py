@@ -8,8 +8,7 @@ from peenflow.effects.effect import Effect, Estimate, Situation
 def _estimate(situation: Situation) -> Estimate:
     if situation.flight is None:
         return Estimate(None, "no flight in this case")
-    case, restitution = situation.case, situation.case.dem.restitution
-    e = restitution if isinstance(restitution, float) else situation.dent.restitution
+    case, e = situation.case, situation.restitution
     cross_section = math.pi * situation.shot.diameter**2
     meetings = max(
         situation.shot.per_second(nozzle) * cross_section * situation.flight * (1 + e)

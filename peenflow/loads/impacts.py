@@ -6,7 +6,7 @@ import numpy as np
 
 from peenflow.case.impacts_csv import ImpactTable
 from peenflow.errors import RunError
-from peenflow.geometry import Surface
+from peenflow.geometry import BoltHole, Surface
 from peenflow.records.contacts import Contacts
 from peenflow.records.impacts import Impacts
 
@@ -16,8 +16,16 @@ SAMPLES_APART = 1.5  # the same in samples, where the engine writes fewer than o
 
 
 @dataclass(frozen=True)
+class Rules:
+    """Which hits are no impacts (SI)."""
+
+    min_normal_speed: float  # slower approaches leave no dent worth counting
+    rim: float  # nearer to a hole's end, the edge's normal is not the wall's: a contact radius
+
+
+@dataclass(frozen=True)
 class _Hits:
-    """Hits before the slow ones are dropped; (n,) or (n, 3), SI."""
+    """Hits before the rules drop some; (n,) or (n, 3), SI."""
 
     t: np.ndarray
     point: np.ndarray
@@ -27,8 +35,8 @@ class _Hits:
     shot: np.ndarray
 
 
-def from_contacts(contacts: Contacts, surface: Surface, min_normal_speed: float) -> Impacts:
-    """Join the rows of one shot on the target that follow each other into impacts, and drop the slow ones.
+def from_contacts(contacts: Contacts, surface: Surface, rules: Rules) -> Impacts:
+    """Join the rows of one shot on the target that follow each other into impacts, and sift them by the rules.
 
     Rows of one shot at one time are one sample that touches several facets: their forces add, as the engine adds
     them. An impact takes its velocity from its first row (of several facets, the one that pushes hardest) and its
@@ -38,7 +46,7 @@ def from_contacts(contacts: Contacts, surface: Surface, min_normal_speed: float)
     Args:
         contacts: rows of all surfaces.
         surface: of the target; gives normals and places free of the facets' chords.
-        min_normal_speed: [m/s]; slower approaches leave no dent worth counting.
+        rules: which hits are dropped, and counted.
 
     Raises:
         RunError: no row on the target.
@@ -69,10 +77,10 @@ def from_contacts(contacts: Contacts, surface: Surface, min_normal_speed: float)
         "merged_rows": len(samples) - len(first),
         "duplicates_removed": len(rows) - len(samples),
     }
-    return _sifted(hits, surface, min_normal_speed, counts)
+    return _sifted(hits, surface, rules, counts)
 
 
-def from_table(table: ImpactTable, surface: Surface, diameter: float, min_normal_speed: float) -> Impacts:
+def from_table(table: ImpactTable, surface: Surface, diameter: float, rules: Rules) -> Impacts:
     """Impacts that the case gives; `diameter` [m] where the table has none. Shots are the table's rows from 0."""
     number = len(table.t)
     hits = _Hits(
@@ -83,7 +91,7 @@ def from_table(table: ImpactTable, surface: Surface, diameter: float, min_normal
         diameter=np.full(number, diameter) if table.diameter is None else table.diameter,
         shot=np.arange(number),
     )
-    return _sifted(hits, surface, min_normal_speed, {"rows": number, "merged_rows": 0, "duplicates_removed": 0})
+    return _sifted(hits, surface, rules, {"rows": number, "merged_rows": 0, "duplicates_removed": 0})
 
 
 def _rows_on_target(contacts: Contacts) -> np.ndarray:
@@ -113,12 +121,21 @@ def _first_of_largest(values: np.ndarray, owner: np.ndarray) -> np.ndarray:
     return order[np.searchsorted(owner, np.arange(owner[-1] + 1))]
 
 
-def _sifted(hits: _Hits, surface: Surface, min_normal_speed: float, counts: dict[str, int]) -> Impacts:
-    """Hits that approach the true surface fast enough, by time; their place on the patch is still open."""
+def _on_rim(points: np.ndarray, surface: Surface, rim: float) -> np.ndarray:
+    """Whether points (n, 3) lie within `rim` [m] of a hole's ends, or beyond them."""
+    if not isinstance(surface, BoltHole):
+        return np.zeros(len(points), bool)
+    z = points[:, 2]
+    return np.asarray((z < rim) | (z > surface.length - rim))
+
+
+def _sifted(hits: _Hits, surface: Surface, rules: Rules, counts: dict[str, int]) -> Impacts:
+    """Hits off the rims that approach the true surface fast enough, by time; their place on the patch is still open."""
     point = surface.on_surface(surface.unroll(hits.point))
     normal = surface.normals(point)
     normal_speed = -np.einsum("ij,ij->i", hits.velocity, normal)
-    hard = np.flatnonzero((normal_speed >= min_normal_speed) & (normal_speed > 0))
+    rim = _on_rim(hits.point, surface, rules.rim)
+    hard = np.flatnonzero((normal_speed >= rules.min_normal_speed) & (normal_speed > 0) & ~rim)
     kept = hard[np.argsort(hits.t[hard], kind="stable")]
     speed = np.linalg.norm(hits.velocity[kept], axis=1)
     return Impacts(
@@ -137,8 +154,9 @@ def _sifted(hits: _Hits, surface: Surface, min_normal_speed: float, counts: dict
         rows=counts["rows"],
         merged_rows=counts["merged_rows"],
         duplicates_removed=counts["duplicates_removed"],
-        slow_dropped=len(hits.t) - len(kept),
-        min_normal_speed=min_normal_speed,
+        rim_dropped=int(rim.sum()),
+        slow_dropped=len(hits.t) - len(kept) - int(rim.sum()),
+        min_normal_speed=rules.min_normal_speed,
         shots_hitting=len(np.unique(hits.shot)),
         groups=0,
     )

@@ -7,14 +7,15 @@ from typing import Literal
 
 import numpy as np
 
+from peenflow.case.accuracy import MARGIN
 from peenflow.case.impacts_csv import ImpactTable, read_impacts
 from peenflow.case.patch_centre import stated_centre
 from peenflow.errors import RunError
 from peenflow.geometry import BoltHole, Surface
 from peenflow.loads.deck import far_field, rollers
 from peenflow.loads.groups import groups
-from peenflow.loads.impacts import from_contacts, from_table
-from peenflow.loads.placement import densest, on_patch
+from peenflow.loads.impacts import Rules, from_contacts, from_table
+from peenflow.loads.placement import Room, densest, on_patch
 from peenflow.loads.pressure import pressure_loads
 from peenflow.loads.spheres import spheres
 from peenflow.progress import Progress
@@ -34,7 +35,6 @@ GROUP_INTERVAL = 3.0  # contact times between two groups: one for the hit, two f
 AFTER_LAST = 3.0  # contact times after the last group's start
 FALL = 2.0  # predicted dent depths a sphere may fall before it touches: four hits at one point leave 1.7
 RELAXATION_TIME = 20.0  # times a shear wave crosses the depth; dynamic relaxation needs several
-MARGIN = 1.0  # predicted dent radii between an impact and the patch's edge
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,7 @@ class Inputs:
     friction: float  # between sphere and patch; 0: the effect is off
     material: Material
     dent_radius: float
+    margin: float  # between an impact and the patch's edge
     contact_time: float
     min_normal_speed: float
     group_distance: float | None
@@ -89,6 +90,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
         friction=case.dem.friction if scene.effects["contact_friction"].on else 0.0,
         material=scene.material,
         dent_radius=scene.dent_radius,
+        margin=MARGIN * scene.dent_radius,
         contact_time=scene.contact_time,
         min_normal_speed=knobs.min_normal_speed,
         group_distance=knobs.group_distance,
@@ -118,8 +120,8 @@ def run(inputs: Inputs, workdir: Path, progress: Progress) -> Translation:
         bar.update(3)
     progress.note(
         f"{len(impacts.t)} impacts from {impacts.rows} rows ({impacts.slow_dropped} slower than "
-        f"{impacts.min_normal_speed:.3g} m/s dropped), {int(impacts.on_patch.sum())} on the patch in "
-        f"{impacts.groups} groups"
+        f"{impacts.min_normal_speed:.3g} m/s and {impacts.rim_dropped} on the rims dropped), "
+        f"{int(impacts.on_patch.sum())} on the patch in {impacts.groups} groups"
     )
     return translation
 
@@ -134,15 +136,17 @@ def load(workdir: Path) -> Translation:
 
 
 def _impacts(inputs: Inputs) -> Impacts:
+    rules = Rules(inputs.min_normal_speed, inputs.dent_radius)
     if isinstance(inputs.hits, ImpactTable):
-        impacts = from_table(inputs.hits, inputs.surface, inputs.shot_diameter, inputs.min_normal_speed)
+        impacts = from_table(inputs.hits, inputs.surface, inputs.shot_diameter, rules)
     else:
-        impacts = from_contacts(inputs.hits, inputs.surface, inputs.min_normal_speed)
+        impacts = from_contacts(inputs.hits, inputs.surface, rules)
     if not len(impacts.t):
         raise RunError(
-            f"All {impacts.slow_dropped} impacts on the target are slower than {inputs.min_normal_speed:.3g} m/s along "
-            "the surface's normal, and would leave no dent worth counting. Lower [accuracy] min_normal_speed, or "
-            "shoot faster or steeper."
+            f"Of the impacts on the target, {impacts.slow_dropped} are slower than {inputs.min_normal_speed:.3g} m/s "
+            "along the surface's normal and would leave no dent worth counting, and "
+            f"{impacts.rim_dropped} are on the hole's rims; none is left. Lower [accuracy] min_normal_speed, or shoot "
+            "faster or steeper, or farther into the hole."
         )
     return impacts
 
@@ -150,8 +154,9 @@ def _impacts(inputs: Inputs) -> Impacts:
 def _placed(inputs: Inputs, impacts: Impacts) -> tuple[Placement, Impacts]:
     """Where the patch lies, and the impacts with those on it grouped and given their start times."""
     surface, size = inputs.surface, inputs.size
-    centre = densest(impacts, surface, size) if inputs.centre is None else np.array(inputs.centre)
-    borne = on_patch(impacts, surface, centre, size, MARGIN * inputs.dent_radius)
+    place = Room(surface, size, inputs.margin)
+    centre = densest(impacts, place) if inputs.centre is None else np.array(inputs.centre)
+    borne = on_patch(impacts, place, centre)
     if not borne.any():
         raise RunError(
             f"None of the {len(impacts.t)} impacts falls on the FE patch, centred {centre[0] * 1e3:.4g} mm along axis "

@@ -3,8 +3,11 @@ from pathlib import Path
 
 import pytest
 
+from peenflow.calibrate import stage as calibrate
 from peenflow.case.directory import read_case
+from peenflow.errors import InputError
 from peenflow.geometry import BoltHole, Plate
+from peenflow.records.upstream import Upstream
 from peenflow.resolve import resolve
 from peenflow.scene import Scene
 
@@ -71,15 +74,24 @@ def test_knobs_override_the_preset() -> None:
 
 
 def test_a_thin_plate_is_meshed_through_and_has_nothing_behind() -> None:
-    found = scene("plate", "target.geometry.thickness=0.5 mm", "effects.far_field=on")
+    found = scene("plate", "target.geometry.thickness=0.5 mm")
     assert found.knobs.depth == pytest.approx(0.5e-3)
     assert found.knobs.boundary == "fixed"
-    assert found.effects["far_field"].state == "off"
+    assert not found.effects["far_field"].on
 
 
 def test_boundary_decides_the_far_field() -> None:
     found = scene("plate", "accuracy.boundary=fixed")
     assert (found.knobs.boundary, found.effects["far_field"].state) == ("fixed", "off")
+    for name in ("plate", "single-shot"):
+        assert scene(name, "effects.far_field=off").knobs.boundary == "fixed"
+
+
+@pytest.mark.parametrize(("switch", "absorbs"), [("auto", True), ("on", True), ("off", False)])
+def test_the_far_fields_switch_reaches_a_single_shots_cell(switch: str, absorbs: bool) -> None:
+    inputs = calibrate.inputs(scene("single-shot", f"effects.far_field={switch}"), Upstream())
+    assert isinstance(inputs, calibrate.Inputs)
+    assert inputs.numerics.far_field is absorbs
 
 
 def test_an_effect_that_is_off_leaves_no_constants() -> None:
@@ -95,3 +107,31 @@ def test_an_oblique_nozzle_rubs() -> None:
     assert found.effects["contact_friction"].on
     assert "60° from the surface" in found.effects["contact_friction"].why
     assert not scene("plate", f"nozzle.0.direction={tilted}", "dem.friction=0.0").effects["contact_friction"].on
+
+
+def impacts_case(directory: Path, *diameters: str) -> Scene:
+    """The patch case with three normal impacts, of the given diameters [m] if there are any."""
+    column = ",diameter_m" if diameters else ""
+    rows = [f"{i}e-6,0,0,0,0,0,-60" + "".join(f",{d}" for d in diameters[i : i + 1]) for i in range(3)]
+    text = "\n".join(["t_s,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s" + column, *rows])
+    (directory / "shots.csv").write_text(text + "\n", encoding="utf-8")
+    case = (CASES / "patch" / "case.toml").read_text(encoding="utf-8").replace('mesh_size = "0.0125 mm"', "")
+    (directory / "case.toml").write_text(case, encoding="utf-8")
+    return resolve(*read_case(directory))
+
+
+def test_given_diameters_set_mesh_margin_and_times(tmp_path: Path) -> None:
+    """The smallest dent must be resolved; the largest must fit and its contact last."""
+    equal = impacts_case(tmp_path)
+    mixed = impacts_case(tmp_path, "0.2e-3", "0.3556e-3", "0.6e-3")
+    assert mixed.shot.diameter == pytest.approx(0.6e-3)
+    assert mixed.dent_radius / equal.dent_radius == pytest.approx(0.6 / 0.3556, rel=0.02)
+    assert mixed.contact_time / equal.contact_time == pytest.approx(0.6 / 0.3556, rel=0.02)
+    assert mixed.knobs.mesh_size / equal.knobs.mesh_size == pytest.approx(0.2 / 0.3556, rel=0.02)
+    assert mixed.knobs.min_normal_speed == pytest.approx(equal.knobs.min_normal_speed, rel=0.1)
+
+
+@pytest.mark.parametrize("key", ["length", "width"])
+def test_a_patch_without_room_for_a_dent_is_refused(key: str) -> None:
+    with pytest.raises(InputError, match=rf"target\.patch\.{key} is 0\.1 mm, but only impacts 0\.0\d+ mm"):
+        scene("plate", f"target.patch.{key}=0.1 mm")

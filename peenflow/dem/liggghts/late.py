@@ -3,7 +3,7 @@
 At a convex edge (the rim of the deflector's tip) LIGGGHTS sometimes sees a contact only when the shot is tens of
 micrometres inside, and the Hertz force throws the shot out: one at 14 m/s left at 72 m/s (first overlap 34 µm where
 1 µm was possible). Such a first row is told by its overlap, which no shot of the scene can reach between two rows.
-What the shot does from there on has no meaning, and its rows are left out.
+What the shot does from there on has no meaning, and its rows are left out; whom it meets in flight is not traced.
 """
 
 import math
@@ -12,7 +12,7 @@ import numpy as np
 
 from peenflow.dem.engine import Stream
 
-STEPS_APART = 3  # time steps between two rows of one contact
+STEPS_APART = 3  # time steps between two rows of one contact, or the interval if that is longer
 GAIN = math.sqrt(2)  # two equal shots: the faster one leaves with at most √(v₁² + v₂²)
 
 
@@ -25,10 +25,10 @@ def spoilt(stream: Stream, step: np.ndarray, shot: np.ndarray, surface: np.ndarr
     speed = GAIN * max(nozzle.speed for nozzle in stream.nozzles) + (stream.rod.speed if stream.rod else 0.0)
     deepest = speed * stream.interval * stream.time_step
     order = np.lexsort((step, surface, shot))
-    same = (np.diff(shot[order]) == 0) & (np.diff(surface[order]) == 0) & (np.diff(step[order]) <= STEPS_APART)
+    near = np.diff(step[order]) <= max(STEPS_APART, stream.interval)
+    same = (np.diff(shot[order]) == 0) & (np.diff(surface[order]) == 0) & near
     first = np.concatenate([[True], ~same])[: len(order)]
-    # a first step that touches several facets has several rows
-    begins = np.flatnonzero(first)[np.cumsum(first) - 1] if len(order) else order
+    begins = np.flatnonzero(first)[np.cumsum(first) - 1]  # of each row, its contact's first
     late = order[(step[order] == step[order[begins]]) & (overlap[order] > deepest)]
     since = np.full(shot.max(initial=-1) + 1, np.iinfo(np.int64).max)
     np.minimum.at(since, shot[late], step[late])

@@ -96,6 +96,18 @@ def test_without_collisions_every_shot_arrives_as_it_was_thrown(plate_stream, tm
     assert np.abs(met.velocity[impacts(met)][:, 2] + 62.5).max() > 5
 
 
+def test_ricochets_do_not_meet_the_shots_that_wait_behind_the_nozzle(plate_stream, tmp_path):
+    """Waiting shots are infinitely heavy: what met them would come down with up to 62.5 + 0.57·125 m/s."""
+    (down,) = plate_stream().nozzles
+    elastic = dataclasses.replace(plate_stream().walls, restitution=1.0)
+    rare = dataclasses.replace(down, rate=20e3)
+    contacts = thrown(plate_stream(nozzles=(rare,), walls=elastic, duration=2e-3), tmp_path)
+    speed = np.linalg.norm(contacts.velocity[impacts(contacts)], axis=1)
+    assert contacts.shots == 40
+    assert (speed < 62).any()  # having met a rising one
+    assert speed.max() < 62.6
+
+
 def test_deflector_throws_the_shots_at_the_hole(plate_stream, tmp_path):
     """A short exposure: shots meet the 45° face of the rod, which moves towards them, then the wall beside it."""
     facets = bore_facets(3.75e-3, 25e-3, 0.3556e-3).triangles

@@ -163,6 +163,9 @@ def test_the_line_of_the_files_own_value_is_named(hole: Path) -> None:
         (["nozzle.0.direction=[0, 0, 1]"], "does not point at the plate"),
         (['nozzle.0.position=["0 mm", "0 mm", "-1 mm"]'], "is in or behind the metal"),
         (["accuracy.depth=6 mm"], "6 mm is deeper than the plate, 5 mm"),
+        (["accuracy.boundary=far-field", "accuracy.depth=5 mm"],
+         '--set accuracy.boundary=far-field: "far-field" asks for a body behind the patch, but the patch is as deep'),
+        (["effects.far_field=on", "accuracy.depth=5 mm"], '--set effects.far_field=on: "on" asks for a body behind'),
         (["target.patch.depth=6 mm"], "target.patch.depth=6 mm: 6 mm is deeper than the plate"),
         (["nozzle.0.diameter=0.2 mm"], "0.2 mm is narrower than the shot"),
         (["target.patch.arc=1 mm"], "a patch on a plate has width, not arc"),
@@ -208,6 +211,20 @@ def test_settings_reach_into_tables_arrays_and_new_sections(hole: Path) -> None:
     assert (case.deflector.travel.speed, case.accuracy.preset) == (1, "draft")
     assert case.exposure is not None
     assert (case.exposure.seed, case.target.johnson_cook.C) == (7, 0.0)
+
+
+def test_the_boundary_of_a_patch_through_the_plate_is_named_with_its_line(plate: Path) -> None:
+    text = PLATE.replace('"5 mm" }', '"0.2 mm" }') + '[accuracy]\nboundary = "far-field"\n'
+    message = _complaint(_written(plate, text))
+    assert 'case.toml line 16, accuracy.boundary: "far-field" asks for a body behind the patch' in message
+
+
+def test_what_is_text_needs_no_quotes(hole: Path) -> None:
+    settings = ["hpc.time=02:00:00", "hpc.account=123", "title=3", 'hpc.partition="7"', "hpc.memory=4 GB"]
+    case, _ = read_case(hole, settings)
+    assert (case.hpc.time, case.hpc.account, case.title) == ("02:00:00", "123", "3")
+    assert (case.hpc.partition, case.hpc.memory) == ("7", "4 GB")
+    assert "shot.kind=ball: unknown key" in _complaint(hole, "shot.kind=ball")
 
 
 def test_a_setting_replaces_the_key_that_excludes_it(plate: Path) -> None:

@@ -77,3 +77,12 @@ def test_disc_faces_the_direction_of_flight(direction):
     np.testing.assert_allclose(area, np.linalg.norm(area) * np.array(direction), atol=1e-15)
     assert np.linalg.norm(area) == pytest.approx(math.pi / 4 * 3.2e-3**2, rel=0.02)
     assert np.linalg.norm(triangles - [1e-3, 2e-3, 3e-3], axis=-1).max() == pytest.approx(1.6e-3)
+
+
+def test_guard_stands_before_the_nozzle_and_is_wider():
+    nozzle = Nozzle((1e-3, 2e-3, 3e-3), (0.6, 0, -0.8), 3.2e-3, 62.5, 40000.0, 0.0)
+    triangles = bodies.guard(nozzle, 0.8e-3)
+    ahead = (triangles - np.array(nozzle.position)) @ np.array(nozzle.direction)
+    np.testing.assert_allclose(ahead, 0.8e-3, atol=1e-12)
+    centre = np.array(nozzle.position) + 0.8e-3 * np.array(nozzle.direction)
+    assert np.linalg.norm(triangles - centre, axis=-1).max() == pytest.approx(1.6e-3 + 0.8e-3)

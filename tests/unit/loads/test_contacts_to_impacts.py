@@ -8,7 +8,7 @@ import pytest
 from peenflow.case.impacts_csv import ImpactTable
 from peenflow.errors import RunError
 from peenflow.geometry import BoltHole, Plate
-from peenflow.loads.impacts import from_contacts, from_table
+from peenflow.loads.impacts import Rules, from_contacts, from_table
 from peenflow.records.contacts import Contacts
 
 STEP = 1e-8
@@ -40,7 +40,7 @@ def contacts(rows, time_step=STEP, interval=2 * STEP):
 
 
 def joined(rows, **kwargs):
-    return from_contacts(contacts(rows, **kwargs), Plate(5e-3), min_normal_speed=5.0)
+    return from_contacts(contacts(rows, **kwargs), Plate(5e-3), Rules(5.0, 0.0))
 
 
 def test_consecutive_rows_of_a_shot_are_one_impact_at_its_largest_force():
@@ -98,6 +98,19 @@ def test_slow_and_receding_impacts_are_dropped_and_counted():
     assert (impacts.slow_dropped, impacts.shots_hitting, impacts.min_normal_speed) == (2, 3, 5.0)
 
 
+def test_hits_on_a_holes_rims_and_beyond_are_dropped_and_counted():
+    """The edge's normal is tilted: a radial one would make a hard hit of a grazing one."""
+    hole = BoltHole(3e-3, 10e-3)
+    z = np.array([-0.01e-3, 0.05e-3, 0.07e-3, 9.93e-3, 9.95e-3, 10.1e-3])
+    point = hole.on_surface(np.stack([z, np.zeros(6)], axis=-1))
+    speed = np.array([50.0, 2.0, 50.0, 2.0, 50.0, 50.0])
+    table = ImpactTable(np.arange(6) * 1e-6, point, -speed[:, None] * hole.normals(point), None)
+    impacts = from_table(table, hole, diameter=2e-4, rules=Rules(5.0, 0.06e-3))
+    assert impacts.point[:, 2] == pytest.approx([0.07e-3])
+    assert (impacts.rim_dropped, impacts.slow_dropped) == (4, 1)
+    assert from_table(table, Plate(1.0), 2e-4, Rules(0.0, 0.06e-3)).rim_dropped == 0
+
+
 def test_no_contact_on_the_target_says_what_to_do():
     with pytest.raises(RunError, match="No shot touched the target"):
         joined([(1, 7, 0, 0, 10, -50)])
@@ -107,7 +120,7 @@ def test_points_go_onto_the_true_surface_and_angles_count_from_it():
     hole = BoltHole(3e-3, 10e-3)
     chord = np.array([[2.99e-3, 0.0, 4e-3]])
     table = ImpactTable(np.zeros(1), chord, np.array([[30.0, 0.0, -40.0]]), None)
-    impacts = from_table(table, hole, diameter=2e-4, min_normal_speed=0)
+    impacts = from_table(table, hole, diameter=2e-4, rules=Rules(0, 0))
     assert impacts.point[0] == pytest.approx([3e-3, 0, 4e-3])
     assert impacts.normal[0] == pytest.approx([-1, 0, 0])
     assert impacts.normal_speed == pytest.approx([30.0])
@@ -120,7 +133,7 @@ def test_a_tables_impacts_are_ordered_by_time_with_their_own_diameters():
     table = ImpactTable(
         np.array([2e-6, 1e-6]), np.zeros((2, 3)), np.array([[0, 0, -10.0], [0, 0, -20.0]]), np.array([1e-4, 2e-4])
     )
-    impacts = from_table(table, Plate(1e-3), diameter=3e-4, min_normal_speed=0)
+    impacts = from_table(table, Plate(1e-3), diameter=3e-4, rules=Rules(0, 0))
     assert impacts.shot.tolist() == [1, 0]
     assert impacts.diameter.tolist() == [2e-4, 1e-4]
 
@@ -160,10 +173,10 @@ def deflector_scene():
 
 
 def test_the_deflector_scene_gives_the_reference_impacts(deflector_scene):
-    impacts = from_contacts(deflector_scene, BoltHole(3.75e-3, 25e-3), min_normal_speed=0)
-    assert len(impacts.t) + impacts.slow_dropped == 1073
-    assert impacts.shots_hitting == 197
-    assert impacts.rows == len(impacts.t) + impacts.slow_dropped + impacts.merged_rows + impacts.duplicates_removed
+    impacts = from_contacts(deflector_scene, BoltHole(3.75e-3, 25e-3), Rules(0, 6e-5))
+    hits = len(impacts.t) + impacts.slow_dropped + impacts.rim_dropped
+    assert (hits, impacts.rim_dropped, impacts.shots_hitting) == (1073, 8, 197)
+    assert impacts.rows == hits + impacts.merged_rows + impacts.duplicates_removed
     with gzip.open(REFERENCE / "impacts.csv.gz", "rt") as handle:
         reference = {
             (int(row["shot_id"]), round(float(row["t_first_s"]) / 3.75e-8)): row

@@ -5,7 +5,7 @@ from peenflow.case.impacts_csv import ImpactTable
 from peenflow.geometry import Plate
 from peenflow.geometry.block import build_block
 from peenflow.loads import pressure
-from peenflow.loads.impacts import from_table
+from peenflow.loads.impacts import Rules, from_table
 from peenflow.records.calibration import Calibration, SingleHit
 
 PLATE = Plate(1e-3)
@@ -42,7 +42,7 @@ def impacts(speeds, forces):
     point = np.stack([np.linspace(-1e-4, 1e-4, number), np.zeros(number), np.zeros(number)], axis=-1)
     velocity = np.zeros((number, 3))
     velocity[:, 2] = -np.array(speeds)
-    found = from_table(ImpactTable(np.arange(number) * 1e-6, point, velocity, None), PLATE, 3.556e-4, 0)
+    found = from_table(ImpactTable(np.arange(number) * 1e-6, point, velocity, None), PLATE, 3.556e-4, Rules(0, 0))
     changes = {"peak_force": np.array(forces), "on_patch": np.ones(number, bool), "t_start": found.t}
     return type(found)(**{**vars(found), **changes})
 

@@ -28,7 +28,7 @@ def box(deck):
 
 def test_bolt_hole(hole_stream):
     deck = build(hole_stream(), 0)
-    assert deck.triangles == {"target": 1152, "deflector": 68, "nozzle0": 24}
+    assert deck.triangles == {"target": 1152, "deflector": 68, "nozzle0": 24, "guard0": 24}
     assert deck.files["target.stl"].count("endfacet") == 1152
     assert line(deck, "fix", "target")[-4:] == ["curvature", "20", "curvature_tolerant", "yes"]
     assert "curvature" not in line(deck, "fix", "deflector")
@@ -73,7 +73,7 @@ def test_plate_without_deflector(hole_stream):
 def test_only_what_is_called_for(hole_stream):
     deck = build(hole_stream(gravity=True, shot_collisions=False), 0)
     assert line(deck, "neigh_modify", "exclude") == ["neigh_modify", "exclude", "type", "1", "1"]
-    assert line(deck, "fix", "gravity")[3:] == ["gravity", "9.81", "vector", "0", "0", "-1"]
+    assert line(deck, "fix", "gravity")[3:] == ["gravity", "9.80665", "vector", "0", "0", "-1"]
 
 
 def test_several_nozzles_each_with_their_seed_and_velocity(hole_stream):
@@ -152,3 +152,14 @@ def test_restitution_that_liggghts_refuses(hole_stream):
     dead = dataclasses.replace(stream, walls=dataclasses.replace(stream.walls, restitution=0.05))
     with pytest.raises(InputError, match=r"dem\.restitution is 0\.05"):
         build(dead, 0)
+
+
+def test_every_nozzle_has_its_guard_after_the_insertions(hole_stream):
+    side = Nozzle((15e-3, 0.0, 20e-3), (-0.6, 0.0, -0.8), 2e-3, 50.0, 10000.0, 0.0)
+    deck = build(hole_stream(nozzles=(DOWN, side)), 0)
+    assert line(deck, "fix", "back1")[-4:] == ["0.6", "-0.0", "0.8", "&"]
+    text = deck.files["deck.in"]
+    assert text.index("fix stream1") < text.index("fix back0") < text.index("fix back1")
+    assert text.count("count once delete_atoms yes") == 2
+    reach = (decks.GUARD - decks.SKIN / 2) * hole_stream().shot.diameter
+    assert reach > hole_stream().shot.diameter  # a shot just deleted flies on for half a skin, and touches none

@@ -34,8 +34,8 @@ def test_no_rows_no_numbers():
 
 def test_finished_shard_is_known_by_its_deck(shard, contacts, hole_stream):
     assert shard.finished() is None
-    hdf5.save(Finished(contacts, shard.digest), shard.directory / RECORD)
-    assert shard.finished().shots == 200
+    hdf5.save(Finished(contacts, shard.digest, 0), shard.directory / RECORD)
+    assert shard.finished().contacts.shots == 200
     other = hole_stream(seed=2)
     assert Shard(other, decks.build(other, 0), shard.directory).finished() is None
 
@@ -48,7 +48,7 @@ def test_facets_are_part_of_the_digest(shard, hole_stream):
 
 def test_damaged_record_means_the_shard_runs_again(shard, contacts):
     path = shard.directory / RECORD
-    hdf5.save(Finished(contacts, shard.digest), path)
+    hdf5.save(Finished(contacts, shard.digest, 0), path)
     path.write_bytes(path.read_bytes()[:-100])
     assert shard.finished() is None
 
@@ -56,7 +56,7 @@ def test_damaged_record_means_the_shard_runs_again(shard, contacts):
 def test_writing_replaces_damaged_files_and_an_old_record(shard, contacts):
     shard.write()
     (shard.directory / "target.stl").write_text("solid")
-    hdf5.save(Finished(contacts, "another deck"), shard.directory / RECORD)
+    hdf5.save(Finished(contacts, "another deck", 0), shard.directory / RECORD)
     shard.write()
     assert (shard.directory / "target.stl").read_text() == shard.deck.files["target.stl"]
     assert not (shard.directory / RECORD).exists()
