@@ -21,8 +21,9 @@ def _cache_folder() -> Path:
 
 numba.config.CACHE_DIR = str(_cache_folder())  # type: ignore[attr-defined]
 
-# NaN and infinities keep their meaning (no "nnan", "ninf"): the guard looks for them.
-_ALGEBRA = {"contract", "reassoc", "nsz", "arcp"}
+# NaN and infinities keep their meaning (no "nnan", "ninf"): the guard looks for them. No "reassoc": with it the process
+# that compiles a kernel and those that load it from the cache differ in the last bits (docs/decisions/lanes.md).
+_ALGEBRA = {"contract", "nsz"}
 
 
 def kernel(function: Any) -> Any:

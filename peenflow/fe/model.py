@@ -84,7 +84,6 @@ def build(deck: Deck, threads: int) -> Model:
         thermal=thermal,
         damping=Damping(
             controls.hourglass_stiffness,
-            controls.hourglass_viscosity,
             controls.bulk_viscosity_linear,
             controls.bulk_viscosity_quadratic,
         ),

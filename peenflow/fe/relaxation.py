@@ -53,7 +53,7 @@ def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] 
         state.balls.phase[:] = GONE
         _stop(solver)
     solver.mass = fictitious_mass(solver.model)
-    solver.damping = Damping(solver.model.damping.hourglass_stiffness, 0.0, 0.0, 0.0)
+    solver.damping = Damping(solver.model.damping.hourglass_stiffness, 0.0, 0.0)
     solver.far = solver.model.far._replace(dashpots=np.zeros_like(solver.model.far.dashpots))
     left = residual(solver)
     while left > limit and state.time < state.relaxing_since + longest:

@@ -88,7 +88,6 @@ class Controls:
     end_time: Annotated[float, of("s", "end of the impacts; relaxation follows")]
     time_step_share: Annotated[float, of("1", "share of the stable step")]
     hourglass_stiffness: Annotated[float, of("1", "Flanagan–Belytschko stiffness coefficient")] = 0.05
-    hourglass_viscosity: Annotated[float, of("1", "viscous hourglass coefficient")] = 0.02
     bulk_viscosity_linear: Annotated[float, of("1", "linear bulk viscosity")] = 0.06
     bulk_viscosity_quadratic: Annotated[float, of("1", "quadratic bulk viscosity")] = 1.2
     relaxation: Annotated[float, of("1", "largest residual: unbalanced over internal nodal force")]

@@ -21,7 +21,7 @@ from peenflow.records.target import Patch
 
 CONTROLS, ARRAYS = "deck.toml", "deck.h5"
 SHARES = ("time_step_share", "relaxation", "energy_error_limit")  # above 0, at most 1
-NOT_NEGATIVE = ("hourglass_stiffness", "hourglass_viscosity", "bulk_viscosity_linear", "bulk_viscosity_quadratic")
+NOT_NEGATIVE = ("hourglass_stiffness", "bulk_viscosity_linear", "bulk_viscosity_quadratic")
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ class Energies:
     shots: Annotated[np.ndarray, of("J", "kinetic energy of the spheres", "(k,)")]
     internal: Annotated[np.ndarray, of("J", "elastic and plastic", "(k,)")]
     plastic: Annotated[np.ndarray, of("J", "plastic part of internal", "(k,)")]
-    hourglass: Annotated[np.ndarray, of("J", "stored and dissipated by hourglass control", "(k,)")]
+    hourglass: Annotated[np.ndarray, of("J", "stored by hourglass control", "(k,)")]
     viscous: Annotated[np.ndarray, of("J", "bulk viscosity", "(k,)")]
     contact: Annotated[np.ndarray, of("J", "lost when a node is taken along by a sphere", "(k,)")]
     friction: Annotated[np.ndarray, of("J", "Coulomb friction", "(k,)")]

@@ -22,7 +22,6 @@ DECK = Deck(
         end_time=1.5e-6,
         time_step_share=0.8,
         hourglass_stiffness=0.05,
-        hourglass_viscosity=0.02,
         bulk_viscosity_linear=0.06,
         bulk_viscosity_quadratic=1.2,
         relaxation=1e-3,
