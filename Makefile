@@ -18,9 +18,10 @@ demo: setup
 	$(BIN)/peenflow run cases/bolt-hole --out $(RESULTS)
 	@echo "Open $(CURDIR)/$(RESULTS)/report/index.html"
 
-# two workers, one solver thread each: more would only take turns on two cores
+# two workers, one solver thread each: more would only take turns on two cores; a file stays on one worker, for its
+# tests share runs
 test: setup
-	NUMBA_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not long"
+	NUMBA_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadfile -m "not long"
 
 test-long: setup
 	$(BIN)/pytest -m long

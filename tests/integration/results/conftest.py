@@ -112,6 +112,7 @@ def make_impacts(count, on_patch_within):
         rows=12 * count,
         merged_rows=11 * count - 7,
         duplicates_removed=7,
+        rim_dropped=0,
         slow_dropped=212,
         min_normal_speed=6.2,
         shots_hitting=min(197, count),

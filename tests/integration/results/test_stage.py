@@ -63,8 +63,14 @@ def test_a_run_from_nozzle_to_stress_is_reported_whole(hole_run, stage_costs, tm
     assert figures["dem"]["deflector_contacts"] == 10
     assert figures["residual_axis"]["min_Pa"] < figures["residual"]["min_Pa"] < -5e8
     assert 0.1e-3 < figures["residual"]["zero_crossing_m"] < 0.16e-3
+    under, impacts = figures["residual_axis"], hole_run[1].translation.impacts
+    assert under["normal_speed_m_s"] == impacts.normal_speed[impacts.on_patch].max()
+    assert [under[f"{axis}_m"] for axis in "xyz"] in impacts.point.tolist()
+    assert f"The hardest impact on the patch, {under['normal_speed_m_s']:.1f} m/s" in page.text
     assert set(page.images) == {p.name for p in (tmp_path / "report").iterdir() if p.suffix in (".svg", ".png")}
-    assert {"surface.png", "profile.svg", "impacts.svg", "energy.svg", "stages.svg", "force.svg"} <= set(page.images)
+    assert {"surface.png", "profile.svg", "impacts.svg", "dents.svg", "energy.svg", "stages.svg", "force.svg"} <= set(
+        page.images
+    )
     assert "Deflector peening of a <bolt> hole" in page.text
     assert "source stress" in page.text
     assert "2 g h / v² over <40 mm> of flight" in page.text
@@ -95,7 +101,7 @@ def test_a_run_from_given_impacts_has_no_stream(hole_run, tmp_path):
     assert not {"dem", "single_shot", "hits"} & set(figures)
     assert figures["coverage"]["full_at_s"] is None
     assert "The stream" not in page.text
-    assert set(page.images) == {"profile.svg", "surface.png", "impacts.svg", "energy.svg"}
+    assert set(page.images) == {"profile.svg", "surface.png", "impacts.svg", "dents.svg", "energy.svg"}
 
 
 def test_a_patch_that_nothing_hit_is_reported_without_a_hardest_impact(hole_run, tmp_path):

@@ -53,6 +53,7 @@ def impacts():
         rows=30,
         merged_rows=26,
         duplicates_removed=1,
+        rim_dropped=0,
         slow_dropped=5,
         min_normal_speed=6.0,
         shots_hitting=2,

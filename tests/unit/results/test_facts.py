@@ -1,6 +1,6 @@
 import pytest
 
-from peenflow.results.facts import COVERAGE, FE, HIT, Fact, by_label, facts, number
+from peenflow.results.facts import COVERAGE, FE, HIT, Fact, by_label, facts, number, percent
 
 
 @pytest.mark.parametrize(
@@ -36,3 +36,10 @@ def test_hits_side_by_side():
 
 def test_no_hits_no_rows():
     assert by_label([], HIT) == []
+
+
+@pytest.mark.parametrize(
+    ("share", "text"), [(0.1598, "16 %"), (4.519e-5, "0.00452 %"), (1.2e-17, "0 %"), (1.0, "100 %"), (None, "–")]
+)
+def test_shares_for_reading(share, text):
+    assert percent(share) == text
