@@ -13,7 +13,7 @@ from peenflow.fe.solver import Solver
 from peenflow.files import written_whole
 from peenflow.records.deck import Deck
 
-SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "last_kinetic", "hourglass_ratio")
+SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "hourglass_ratio")
 ARRAYS = ("u", "v", "force", "deviator", "peeq", "temperature")
 SUMS = ("kinetic", "shots", "contact", "friction", "absorbed", "relaxed", "work")
 

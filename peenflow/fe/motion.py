@@ -50,6 +50,19 @@ def advance(chunks, spans, force, mass, u, v, kick, drift, kinetic):
         kinetic[thread, 0] = energy
 
 
+@threaded
+def slow_down(chunks, mass, v, share, sums):
+    """v *= share; the kinetic energy that takes in the first column of sums (threads, 8) [J], overwritten."""
+    for thread in prange(len(chunks) - 1):
+        energy = 0.0
+        for i in range(chunks[thread], chunks[thread + 1]):
+            energy += mass[i] * (v[i, 0] * v[i, 0] + v[i, 1] * v[i, 1] + v[i, 2] * v[i, 2])
+            v[i, 0] *= share
+            v[i, 1] *= share
+            v[i, 2] *= share
+        sums[thread, 0] = 0.5 * (1.0 - share * share) * energy
+
+
 @kernel
 def remember(nodes, v, before):
     """before[k] ← v[nodes[k]]: velocities that correctors need from before the step."""

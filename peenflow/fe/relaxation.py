@@ -1,15 +1,16 @@
-"""Relaxation to equilibrium by kinetic damping with fictitious masses (Cundall 1982; Underwood 1983).
+"""Relaxation to equilibrium: viscous dynamic relaxation with fictitious masses (Day 1965; Underwood 1983).
 
-The body swings freely; whenever its kinetic energy passes a peak, most of it is where the forces balance, and all
-velocities are set to zero. Inertia no longer matters, so coarse elements get lighter nodes until their stable step is
-that of the finest: waves then cross every element in the same number of steps. Nothing is tuned. Viscosities and the
-far field's dashpots are left out: they would slow the way to rest, and overdamp light nodes.
+Inertia no longer matters, so coarse elements get lighter nodes until their stable step is that of the finest: waves
+then cross every element in the same number of steps. All velocities lose a share each step, which damps critically what
+takes about 2π · 2/share steps to swing: a patch of some forty elements across. Material viscosities and the far field's
+dashpots are left out: they would overdamp light nodes.
 """
 
 from collections.abc import Callable
 
 import numpy as np
 
+from peenflow.fe import motion
 from peenflow.fe.contact import GONE
 from peenflow.fe.fields import cauchy_stress, unbalanced
 from peenflow.fe.internal_forces import Damping
@@ -17,6 +18,7 @@ from peenflow.fe.model import Model
 from peenflow.fe.solver import BUNDLE, Solver
 from peenflow.fe.timestep import nodal_volumes, transit_times
 
+DAMPING = 0.04  # share of its velocity that a node loses each step
 CHECK = 5 * BUNDLE  # steps between looks at the residual
 MARGIN = 1.2  # of the finest element's step: deformation shortens that of others
 
@@ -45,19 +47,23 @@ def fictitious_mass(model: Model) -> np.ndarray:
 def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] | None = None) -> float:
     """Bring the patch to rest; returns the residual reached, at most controls.relaxation if `longest` [s] suffices.
 
-    The spheres are gone from here on; what velocities lose is booked as `relaxed`. Resumes a relaxation under way.
+    The spheres are gone from here on; what damping takes is booked as `relaxed`. Resumes a relaxation under way.
     """
     state, limit = solver.state, solver.deck.controls.relaxation
     if np.isnan(state.relaxing_since):
         state.relaxing_since, state.hourglass_ratio = state.time, state.ledger.hourglass_ratio
         state.balls.phase[:] = GONE
-        _stop(solver)
+        # the masses change: begin at rest, with half a kick
+        state.ledger.relaxed += state.ledger.kinetic
+        state.ledger.kinetic = 0.0
+        state.v[:] = 0.0
+        state.last_dt = 0.0
     solver.mass = fictitious_mass(solver.model)
     solver.damping = Damping(solver.model.damping.hourglass_stiffness, 0.0, 0.0)
     solver.far = solver.model.far._replace(dashpots=np.zeros_like(solver.model.far.dashpots))
     left = residual(solver)
     while left > limit and state.time < state.relaxing_since + longest:
-        solver.bundle(_damp)
+        solver.bundle(_slow_down)
         if state.step % CHECK == 0:
             left = residual(solver)
             if after_check is not None:
@@ -65,19 +71,7 @@ def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] 
     return left
 
 
-def _damp(solver: Solver) -> None:
-    """Past a peak of the kinetic energy, stop all motion."""
-    state, kinetic = solver.state, solver.state.ledger.kinetic
-    if kinetic < state.last_kinetic < np.inf:
-        _stop(solver)
-    else:
-        state.last_kinetic = kinetic if kinetic > 0.0 else np.inf
-
-
-def _stop(solver: Solver) -> None:
-    state = solver.state
-    state.ledger.relaxed += state.ledger.kinetic
-    state.ledger.kinetic = 0.0
-    state.v[:] = 0.0
-    state.last_dt = 0.0  # at rest now, not half a step ago: the next kick is half a step's, else high modes grow
-    state.last_kinetic = np.inf
+def _slow_down(solver: Solver) -> None:
+    taken = np.zeros((solver.threads, 8))
+    motion.slow_down(solver.model.chunks, solver.mass, solver.state.v, 1.0 - DAMPING, taken)
+    solver.state.ledger.relaxed += float(taken[:, 0].sum())

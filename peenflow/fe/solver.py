@@ -39,7 +39,6 @@ class State:
     recorder: ContactRecorder
     first_dt: float = 0.0  # s
     relaxing_since: float = np.nan  # s, NaN while impacts go on
-    last_kinetic: float = np.inf  # J, in relaxation: what the next step is compared with
     hourglass_ratio: float = 0.0  # at the end of the impacts
 
 

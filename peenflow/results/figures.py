@@ -62,7 +62,7 @@ def dem_figures(stream: Stream, impacts: Impacts) -> Figures:
     speed = np.linalg.norm(impacts.velocity, axis=1)
     return {
         "shots": stream.shots,
-        "wall_impacts": len(impacts.t) + impacts.slow_dropped,
+        "wall_impacts": len(impacts.t) + impacts.slow_dropped + impacts.rim_dropped,
         "shots_hitting": impacts.shots_hitting,
         "speed_median_m_s": float(np.median(speed)) if speed.size else None,
         "normal_speed_median_m_s": float(np.median(impacts.normal_speed)) if speed.size else None,
@@ -83,6 +83,7 @@ def impact_figures(impacts: Impacts) -> Figures:
         "merged_rows": impacts.merged_rows,
         "duplicates_removed": impacts.duplicates_removed,
         "slow_dropped": impacts.slow_dropped,
+        "rim_dropped": impacts.rim_dropped,
         "min_normal_speed_m_s": impacts.min_normal_speed,
     }
 

@@ -70,7 +70,7 @@ def _peening(scene: Scene, upstream: Upstream) -> Peening | None:
         impacts=upstream.translation.impacts,
         response=upstream.response,
         stream=None if contacts is None or contacts.engine == "none" else summarise(contacts),
-        exposure=None if exposure is None else exposure.duration,
+        exposure=None if exposure is None else exposure.duration * exposure.shards,  # shards are merged
         sides=scene.knobs.sides,
     )
 

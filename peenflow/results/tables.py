@@ -33,7 +33,10 @@ def profile_columns(profile: Profile) -> dict[str, np.ndarray]:
 
 
 def impact_columns(impacts: Impacts, placement: Placement, spheres: SphereResults | None) -> dict[str, np.ndarray]:
-    """Columns of impacts.csv, in the part's frame; the solver's spheres are the impacts on the patch, in order."""
+    """Columns of impacts.csv, in the part's frame; the solver's spheres are the impacts on the patch, in order.
+
+    The peak force is the DEM's; where there was no DEM it is what the FE run felt.
+    """
     columns = {
         "t_s": impacts.t,
         **_vector("xyz", "_m", impacts.point),
@@ -49,6 +52,9 @@ def impact_columns(impacts: Impacts, placement: Placement, spheres: SphereResult
         return columns
     out = np.full(impacts.velocity.shape, np.nan)
     out[impacts.on_patch] = spheres.velocity_out @ placement.rotation.T
+    felt = np.full(len(impacts.t), np.nan)
+    felt[impacts.on_patch] = spheres.peak_force
+    columns["peak_force_N"] = np.where(np.isnan(impacts.peak_force), felt, impacts.peak_force)
     return columns | _vector(("vx_out", "vy_out", "vz_out"), "_m_s", out)
 
 
