@@ -1,4 +1,4 @@
-# make setup | demo | test | test-long | lint: each sets up what it needs and is quick when there is nothing to do.
+# make setup | demo | test | test-long | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
 SHELL := /bin/bash
 .DELETE_ON_ERROR:
 VENV := .venv
@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 RESULTS := cases/bolt-hole/results
 
-.PHONY: setup demo test test-long lint clean
+.PHONY: setup demo test test-long bench-tests lint clean
 
 setup: $(READY)
 
@@ -25,6 +25,10 @@ test: setup
 
 test-long: setup
 	$(BIN)/pytest -m long
+
+# how fast, not whether right: files bench_*.py, which no other target collects
+bench-tests: setup
+	$(BIN)/pytest tests/benchmark -o python_files="bench_*.py" -o python_functions="bench_*" -p benchmark
 
 lint: setup
 	$(BIN)/ruff check .

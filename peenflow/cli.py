@@ -10,6 +10,7 @@ import typer
 
 import peenflow
 from peenflow import console, display, jobs, pipeline, starter
+from peenflow.bench.found import document
 from peenflow.case.directory import read_case
 from peenflow.errors import PeenflowError
 from peenflow.estimate import estimate
@@ -146,6 +147,24 @@ def report(case: CaseArgument, out: OutOption = None, settings: SetOption = None
     with console.opened(request.out, display.ERRORS) as said:
         outcomes = pipeline.report_again(request, said)
     display.outcomes(outcomes, request.out)
+
+
+@app.command()
+def bench(
+    quick: Annotated[bool, typer.Option("--quick", help="Small meshes: does it work, rather than how fast.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure this machine: memory, element updates a second, compilation, DEM steps a second."""
+    from peenflow.bench import run as benchmark  # imports the solver, which no other command needs here
+
+    with open(os.devnull, "w", encoding="utf-8") as no_log:  # there is no results directory to keep one in
+        said = console.Console(display.ERRORS, no_log)
+        found = benchmark.measure(benchmark.QUICK if quick else benchmark.FULL, said)
+        if as_json:
+            said.note(found.formula)
+            display.document(document(found))
+        else:
+            display.bench(found)
 
 
 @app.command()

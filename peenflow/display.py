@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from peenflow.bench.found import Found
 from peenflow.pipeline import Outcome, StageStatus
 
 ERRORS = Console(stderr=True)
@@ -90,6 +91,27 @@ def status(lines: Sequence[StageStatus], out: Path) -> None:
         _row(table, line.stage, line.state, line.why)
     OUTPUT.print(table)
     say(f"Results: {out}")
+
+
+def bench(found: Found) -> None:
+    """What `bench` measured."""
+    for threads, bandwidth in found.triad.items():
+        say(f"triad on {threads} thread{'s' * (threads > 1)}: {bandwidth / 1e9:.3g} GB/s (24 B an element)")
+    say(f"solver's first steps: {found.compile_cold:.3g} s compiling, {found.compile_cached:.3g} s from the cache")
+    table = _table("cube", "order", "yield", "threads", "10⁶/s", "median", "B/update", "limit", "B/element")
+    for row in found.solver:
+        rates = (f"{rate / 1e6:.2f}" for rate in (row.updates_per_s, row.median_updates_per_s))
+        share, limit = f"{100 * row.yielding:.3g} %", f"{100 * row.share_of_limit:.3g} %"
+        sizes = f"{row.bytes_per_update:.0f}", limit, f"{row.bytes_per_element:.0f}"
+        _row(table, f"{round(row.elements ** (1 / 3))}³", row.order, share, str(row.threads), *rates, *sizes)
+    OUTPUT.print(table)
+    say(f"10⁶/s: element updates of whole steps in {found.solver[0].precision}, best and median of several bundles.")
+    say(f"B/update: {found.formula}.")
+    say("limit: updates/s · B/update over the triad on as many threads. B/element: memory in the solver's arrays.")
+    if found.dem is None:
+        say("dem: LIGGGHTS is not installed")
+    else:
+        say(f"dem: {found.dem.steps_per_s:.4g} steps/s with {found.dem.shots} shots")
 
 
 def _table(*columns: str) -> Table:
