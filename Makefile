@@ -1,12 +1,13 @@
-# make setup | demo | test | test-long | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
+# make setup | demo | test | test-long | verification | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
 SHELL := /bin/bash
 .DELETE_ON_ERROR:
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 RESULTS := cases/bolt-hole/results
+LADDER := build/verification
 
-.PHONY: setup demo test test-long bench-tests lint clean
+.PHONY: setup demo test test-long verification bench-tests lint clean
 
 setup: $(READY)
 
@@ -25,6 +26,12 @@ test: setup
 
 test-long: setup
 	$(BIN)/pytest -m long
+
+# the whole ladder; the page is written whether or not a rung failed, and says which
+verification: setup
+	rm -rf $(LADDER)
+	$(BIN)/pytest tests/verification --record $(LADDER); told=$$?; \
+	  $(BIN)/python tests/support/ladder_page.py $(LADDER) docs && exit $$told
 
 # how fast, not whether right: files bench_*.py, which no other target collects
 bench-tests: setup

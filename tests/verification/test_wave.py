@@ -33,7 +33,7 @@ def column(far):
     return Solver(made, threads=1), material, patch
 
 
-def test_speed_and_amplitude():
+def test_speed_and_amplitude(rung):
     solver, material, patch = column(far=True)
     depth = 120 * H
     probe = int(np.argmin(np.linalg.norm(patch.nodes - [0, 0, -depth], axis=1)))
@@ -48,17 +48,20 @@ def test_speed_and_amplitude():
     exact = PRESSURE / (material.density * material.c_p)
     # The front passes when half the amplitude is reached; bulk viscosity spreads it evenly to both sides.
     front = times[int(np.argmax(velocities > exact / 2))]
-    assert depth / front == pytest.approx(material.c_p, rel=0.01)
+    rung.near("speed of the front", depth / front, material.c_p, "m/s", rel=0.01)
     passing = slice(int(np.searchsorted(times, (depth + 10 * H) / material.c_p)), len(times) - 20)
-    assert velocities[passing].mean() == pytest.approx(exact, rel=0.01)
+    rung.near("particle velocity", velocities[passing].mean(), exact, "m/s", rel=0.01)
+    rung.curve("wave", time=times, velocity=velocities, exact=[exact] * len(times))
 
 
-@pytest.mark.parametrize(("far", "least", "most"), [(True, 0.0, 0.01), (False, 0.85, 1.0)])
-def test_the_far_field_swallows_what_a_free_end_sends_back(far, least, most):
+@pytest.mark.parametrize(
+    ("far", "least", "most"), [(True, 0.0, 0.01), (False, 0.85, 1.0)], ids=["far field", "free end"]
+)
+def test_the_far_field_swallows_what_a_free_end_sends_back(rung, far, least, most):
     solver, material, _ = column(far)
     solver.run(1.5 * LAYERS * H / material.c_p)
     ledger = solver.state.ledger
-    assert ledger.error < 0.01  # the load comes in one step
+    rung.below("energy error", ledger.error, 0.01)  # the load comes in one step
     # what is missing at a free end, bulk viscosity took from the steep fronts
     left = (ledger.kinetic + ledger.of_elements(0)) / ledger.work
-    assert least <= left <= most
+    rung.between("energy left in the column over the load's work", left, least, most)
