@@ -67,7 +67,7 @@ def renumbered(patch: Patch, old: np.ndarray) -> Patch:
     )
 
 
-def deck(n: int, order: str) -> Deck:
+def deck(n: int, order: str, precision: str = "float64") -> Deck:
     """A deck of n³ elements with rollers, its nodes in one of `ORDERS`, its elements column by column."""
     lines = SIZE * (np.arange(n + 1) - 0.5 * n)
     block = build_block(lines, lines, np.full(n, SIZE))
@@ -80,6 +80,7 @@ def deck(n: int, order: str) -> Deck:
         relaxation_time=1.0,
         checkpoint_steps=0,
         energy_error_limit=1.0,
+        precision=precision,
     )
     rollers = tuple(Roller(name, patch.node_sets[name], patch.normals[name], mirror=False) for name in HELD)
     return Deck(controls, patch, Placement(np.eye(3), np.zeros(3)), INCONEL, rollers, (), None, None)

@@ -13,7 +13,7 @@ class Plan:
     """How much is measured."""
 
     triad_length: int  # numbers in each of three arrays
-    cubes: tuple[tuple[int, str], ...]  # elements along an edge, order of the nodes
+    cubes: tuple[tuple[int, str, str], ...]  # elements along an edge, order of the nodes, precision
     bundles: int  # timed, of each situation
     stream: str  # duration of the DEM's
 
@@ -21,18 +21,25 @@ class Plan:
 FULL = Plan(
     triad_length=1 << 25,
     cubes=(
-        (32, "structured"),
-        (32, "gmsh"),
-        (64, "structured"),
-        (64, "gmsh"),
-        (64, "random"),
-        (100, "structured"),
-        (100, "gmsh"),
+        (32, "structured", "float64"),
+        (32, "gmsh", "float64"),
+        (64, "structured", "float64"),
+        (64, "gmsh", "float64"),
+        (64, "random", "float64"),
+        (100, "structured", "float64"),
+        (100, "gmsh", "float64"),
+        (64, "structured", "float32"),
+        (100, "structured", "float32"),
     ),
     bundles=7,
     stream="2 ms",
 )
-QUICK = Plan(triad_length=1 << 23, cubes=((16, "structured"), (16, "random")), bundles=3, stream="0.2 ms")
+QUICK = Plan(
+    triad_length=1 << 23,
+    cubes=((16, "structured", "float64"), (16, "random", "float64"), (16, "structured", "float32")),
+    bundles=3,
+    stream="0.2 ms",
+)
 
 
 def measure(plan: Plan, progress: Progress) -> Found:
@@ -47,11 +54,11 @@ def measure(plan: Plan, progress: Progress) -> Found:
     progress.note("solver: compiling in a process of its own")
     cold, cached = first_step.cold_and_cached()
     solver = []
-    with progress.task("solver", float(sum(n**3 for n, _ in plan.cubes))) as task:
+    with progress.task("solver", float(sum(n**3 for n, _, _ in plan.cubes))) as task:
         done = 0.0
-        for n, order in plan.cubes:
+        for n, order, precision in plan.cubes:
             each = n**3 / (len(triad) * len(updates.SHARES))
-            for found in updates.measure(n, order, triad, plan.bundles):
+            for found in updates.measure(n, order, precision, triad, plan.bundles):
                 solver.append(found)
                 done += each
                 task.update(done)

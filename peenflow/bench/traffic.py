@@ -13,15 +13,16 @@ import numpy as np
 
 from peenflow.fe.solver import Solver
 
-ELEMENT = {"connectivity": 8 * 4, "deviator": 2 * 5 * 8}  # B, of float64; what is written too counts twice
-YIELDING_ELEMENT = {"PEEQ": 2 * 8}
-NODE = {"coordinates": 3 * 8, "displacement": 2 * 3 * 8, "velocity": 2 * 3 * 8, "force": 2 * 3 * 8, "mass": 8}
+CONNECTIVITY = 8 * 4  # B an element
+ELEMENT = {"deviator": 2 * 5, "volume and hourglass stiffness": 2}  # numbers; what is written too counts twice
+YIELDING_ELEMENT = {"PEEQ": 2}
+NODE = {"coordinates": 3, "displacement": 2 * 3, "velocity": 2 * 3, "force": 2 * 3, "mass": 1}
 
 
-def bytes_per_update(nodes: int, elements: int, yielding: float) -> float:
-    """Bytes an element update moves at least; see `formula`."""
+def bytes_per_update(nodes: int, elements: int, yielding: float, number: int) -> float:
+    """Bytes an element update moves at least, with numbers of `number` bytes; see `formula`."""
     of_nodes = sum(NODE.values()) * nodes / elements
-    return sum(ELEMENT.values()) + yielding * sum(YIELDING_ELEMENT.values()) + of_nodes
+    return CONNECTIVITY + number * (sum(ELEMENT.values()) + yielding * sum(YIELDING_ELEMENT.values()) + of_nodes)
 
 
 def formula() -> str:
@@ -31,8 +32,8 @@ def formula() -> str:
         return " + ".join(f"{size} {name}" for name, size in arrays.items())
 
     return (
-        f"bytes an update = {listed(ELEMENT)} + yielding share · {listed(YIELDING_ELEMENT)} "
-        f"+ nodes an element · ({listed(NODE)}): each array once, twice if written"
+        f"bytes an update = {CONNECTIVITY} connectivity + bytes a number · ({listed(ELEMENT)} + yielding share · "
+        f"{listed(YIELDING_ELEMENT)} + nodes an element · ({listed(NODE)})): each array once, twice if written"
     )
 
 
@@ -46,6 +47,8 @@ def _arrays(things: Iterable[Any]) -> Iterator[np.ndarray]:
     for thing in things:
         if isinstance(thing, np.ndarray):
             yield thing
+        elif isinstance(thing, tuple):
+            yield from _arrays(thing)
         elif dataclasses.is_dataclass(thing):
             yield from _arrays([getattr(thing, field.name) for field in dataclasses.fields(thing)])
         elif isinstance(thing, list | tuple):

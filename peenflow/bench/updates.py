@@ -19,19 +19,20 @@ BUNDLE_UPDATES = 1.5e6  # in a timed bundle, within these limits of steps:
 LEAST_STEPS, MOST_STEPS = 4, 40
 
 
-def measure(n: int, order: str, triad: dict[int, float], bundles: int) -> Iterator[Updates]:
+def measure(n: int, order: str, precision: str, triad: dict[int, float], bundles: int) -> Iterator[Updates]:
     """Cubes of n³ elements by threads and share that yields, as they are measured.
 
     Args:
         n: elements along an edge.
         order: of the nodes, one of `peenflow.bench.cube.ORDERS`.
+        precision: float64 or float32, of the fields.
         triad: bandwidth [B/s] by number of threads; these are the numbers measured on.
         bundles: timed bundles of steps; the best counts.
 
     Raises:
         RunError: another share of the elements yields than was meant.
     """
-    cube = deck(n, order)
+    cube = deck(n, order, precision)
     for threads, bandwidth in triad.items():
         with on_threads(threads):
             yield from _on_threads(cube, threads, order, bandwidth, bundles)
@@ -51,7 +52,7 @@ def _on_threads(cube: Deck, threads: int, order: str, bandwidth: float, bundles:
                 f"{100 * yielding:g} % did: the material law is not what it was. Run the tests (make test)."
             )
         best = elements * steps / min(times)
-        size = bytes_per_update(nodes, elements, yielding)
+        size = bytes_per_update(nodes, elements, yielding, solver.state.u.itemsize)
         yield Updates(
             elements=elements,
             threads=threads,

@@ -11,7 +11,6 @@ LEAD = 0.1  # of the radius: how far above the surface a sphere becomes live; pi
 # Of the radius, how far above the surface a leaving sphere is let go: above pile-up, yet so low that a grazing rebound
 # in a bore is gone before it meets the wall again, for that hit is an impact of its own in the DEM.
 CLEARANCE = 0.05
-SKIN_SPEED = 100.0  # m/s, what surface nodes may do to a list of candidates
 
 
 def initial(model: Model) -> Balls:
@@ -70,14 +69,19 @@ def within_reach(centre, reach, nodes, X, u, found):
     return count
 
 
-def candidates(balls: Balls, model: Model, u: np.ndarray, horizon: float) -> Candidates:
-    """Surface nodes that live spheres may touch within `horizon` seconds."""
+def candidates(balls: Balls, model: Model, u: np.ndarray, v: np.ndarray, horizon: float) -> Candidates:
+    """Surface nodes that live spheres may touch within `horizon` seconds.
+
+    Spheres go on at their speed; the surface moves as fast as its fastest node (v: (n, 3) m/s), or as a sphere that has
+    just hit it.
+    """
+    skin = float(np.sqrt((v[model.surface] ** 2).sum(axis=1).max(initial=0.0)))
     found, start, lists = np.empty(len(model.surface), np.int64), [0], []
     for s in range(len(balls.radius)):
         count = 0
         if balls.phase[s] == LIVE:
-            speed = float(np.linalg.norm(balls.velocity[s])) + SKIN_SPEED
-            reach = balls.radius[s] + 1.5 * horizon * speed
+            speed = float(np.linalg.norm(balls.velocity[s]))
+            reach = balls.radius[s] + 1.5 * horizon * (speed + max(speed, skin))
             count = within_reach(balls.centre[s], reach, model.surface, model.X, u, found)
             lists.append(found[:count].copy())
         start.append(start[-1] + count)

@@ -13,8 +13,8 @@ from peenflow.fe.solver import Solver
 from peenflow.files import written_whole
 from peenflow.records.deck import Deck
 
-SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "hourglass_ratio")
-ARRAYS = ("u", "v", "force", "deviator", "peeq", "temperature")
+SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "hourglass_ratio", "retries")
+ARRAYS = ("u", "v", "force", "deviator", "peeq", "temperature", "backstress")
 SUMS = ("kinetic", "shots", "contact", "friction", "absorbed", "relaxed", "work")
 
 
@@ -53,7 +53,7 @@ def resume(solver: Solver, path: Path) -> bool:
         setattr(state, name, saved[name])
     for name, value in zip(SCALARS, saved["scalars"], strict=True):
         setattr(state, name, float(value))
-    state.step = int(state.step)
+    state.step, state.retries = int(state.step), int(state.retries)
     state.balls = Balls(*(saved[f"ball_{name}"] for name in Balls._fields))
     for name, value in zip(SUMS, saved["sums"], strict=True):
         setattr(state.ledger, name, float(value))

@@ -137,9 +137,9 @@ def touching_nodes(first, last, candidates, surface, centre, radius, dt, touched
     count = 0
     for c in range(first, last):
         i = candidates.nodes[c]
-        x = surface.X[i, 0] + surface.u[i, 0] - centre[0]
-        y = surface.X[i, 1] + surface.u[i, 1] - centre[1]
-        z = surface.X[i, 2] + surface.u[i, 2] - centre[2]
+        x = surface.X[i, 0] - centre[0] + surface.u[i, 0]
+        y = surface.X[i, 1] - centre[1] + surface.u[i, 1]
+        z = surface.X[i, 2] - centre[2] + surface.u[i, 2]
         square = x * x + y * y + z * z
         if square < radius * radius:
             distance = math.sqrt(square)

@@ -8,26 +8,35 @@ import numpy as np
 
 from peenflow.errors import RunError
 from peenflow.fe import checkpoint, outcome
+from peenflow.fe.guard import GaveUpError, Guard
+from peenflow.fe.inspection import write_state
 from peenflow.fe.relaxation import CHECK, relax
-from peenflow.fe.solver import Solver
+from peenflow.fe.solver import Solver, UnstableError
 from peenflow.progress import Progress
 from peenflow.records.deck import Deck
 from peenflow.records.response import Response
 
 RELAXATION_SHARE = 0.2  # of the bar
+LARGEST_HOURGLASS = 0.1  # of the internal energy, beyond which the user is told
+LAST_GOOD = Path("last-good") / "response.vtu"  # beside the checkpoint
 
 
 def solve(deck: Deck, path: Path, progress: Progress) -> Response:
     """Solve the deck, going on from the checkpoint `path` where it is one of the same deck.
 
     Raises:
-        RunError: an element inverted, figures are not finite, or the energy error exceeds the deck's limit.
+        RunError: the solution went wrong, with smaller steps too, or the energy error exceeds the deck's limit.
     """
     solver = Solver(deck, numba.get_num_threads())
     if checkpoint.resume(solver, path):
         progress.note(f"solve goes on from step {solver.state.step} ({solver.state.time * 1e6:.3g} µs)")
     began, first_step = time.perf_counter(), solver.state.step
-    residual = _advance(solver, path, progress)
+    try:
+        residual = _advance(solver, path, progress)
+    except GaveUpError as end:
+        kept = path.parent / LAST_GOOD
+        write_state(solver, kept)
+        raise RunError(f"{end} The last good state, of step {solver.state.step}, lies in {kept}.") from end
     elapsed = max(time.perf_counter() - began, 1e-9)
     _check(solver, residual, progress)
     rate = solver.model.elements * (solver.state.step - first_step) / elapsed
@@ -36,29 +45,49 @@ def solve(deck: Deck, path: Path, progress: Progress) -> Response:
 
 def _advance(solver: Solver, path: Path, progress: Progress) -> float:
     """Impacts, then relaxation, with checkpoints at fixed step counts; returns the residual reached."""
-    controls, state = solver.deck.controls, solver.state
+    controls, guard = solver.deck.controls, Guard(solver)
     every = max(CHECK, controls.checkpoint_steps // CHECK * CHECK)
+
+    def look() -> None:
+        guard.keep()
+        if solver.state.step % every == 0:
+            checkpoint.save(solver, path)
+
     with progress.task("solve", 1.0) as task:
-        while np.isnan(state.relaxing_since) and solver.unfinished(controls.end_time):
-            solver.bundle()
-            task.update((1 - RELAXATION_SHARE) * min(1.0, state.time / controls.end_time))
-            if state.step % every == 0:
-                checkpoint.save(solver, path)
 
         def after_check(at: Solver) -> None:
             share = min(1.0, (at.state.time - at.state.relaxing_since) / controls.relaxation_time)
             task.update(1 - RELAXATION_SHARE * (1 - share))
-            if at.state.step % every == 0:
-                checkpoint.save(at, path)
+            look()
 
-        return relax(solver, controls.relaxation_time, after_check)
+        guard.keep()
+        while True:
+            try:
+                while np.isnan(solver.state.relaxing_since) and solver.unfinished(controls.end_time):
+                    solver.bundle()
+                    task.update((1 - RELAXATION_SHARE) * min(1.0, solver.state.time / controls.end_time))
+                    look()
+                return relax(solver, controls.relaxation_time, after_check)
+            except UnstableError as trouble:
+                progress.note(guard.go_back(trouble))
 
 
 def _check(solver: Solver, residual: float, progress: Progress) -> None:
+    """Hold the finished run to the deck's limits.
+
+    Raises:
+        RunError: the energy error exceeds the limit.
+    """
     controls, ledger = solver.deck.controls, solver.state.ledger
+    if solver.state.hourglass_ratio > LARGEST_HOURGLASS:
+        progress.note(
+            f"hourglass control holds {100 * solver.state.hourglass_ratio:.2g} % of the internal energy, more than "
+            f"{100 * LARGEST_HOURGLASS:.2g} %: the mesh is coarse for these dents; lower accuracy.mesh_size"
+        )
     if ledger.error > controls.energy_error_limit:
         raise RunError(
-            f"The energy balance is off by {100 * ledger.error:.2g} % of all energy brought in, above the limit of "
+            f"At the end of the run ({1e6 * solver.state.time:.4g} µs) the energy balance is off by "
+            f"{100 * ledger.error:.2g} % of all energy brought in, above the limit of "
             f"{100 * controls.energy_error_limit:.2g} % (deck.toml, energy_error_limit). Lower accuracy.time_step or "
             "refine accuracy.mesh_size, then run again."
         )

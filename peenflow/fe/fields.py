@@ -4,8 +4,9 @@ import numpy as np
 
 from peenflow.fe import modes
 from peenflow.fe.jit import kernel
-from peenflow.fe.lanes import LANES, gather, read_modes
+from peenflow.fe.lanes import gather, read_modes
 from peenflow.fe.model import Model
+from peenflow.fe.rows import LANES
 from peenflow.fe.vectors import apply_symmetric, dot
 
 
@@ -15,11 +16,11 @@ def cauchy_stress(blocks, elements, X, u, deviators, bulk, stress, volumes):
 
     f_eI = σ·b_I are the elements' own nodal forces, without hourglass control: the scale of the residual.
     """
-    reference, displacement = np.empty(24 * LANES), np.empty(24 * LANES)
+    reference, displacement = np.empty(24 * LANES, X.dtype), np.empty(24 * LANES, X.dtype)
     squares = 0.0
-    for block in range(len(blocks)):
-        gather(blocks[block], X, reference)
-        gather(blocks[block], u, displacement)
+    for block in range(len(blocks.nodes)):
+        gather(blocks, block, X, reference)
+        gather(blocks, block, u, displacement)
         s = deviators[block]
         for lane in range(min(LANES, elements - block * LANES)):
             x0 = read_modes(reference, lane)
@@ -34,7 +35,7 @@ def cauchy_stress(blocks, elements, X, u, deviators, bulk, stress, volumes):
             volumes[e] = volume
             for m in g:
                 f = apply_symmetric(t, m)
-                squares += 0.125 * dot(f, f)
+                squares += 8.0 * dot(f, f)
     return squares
 
 
@@ -46,7 +47,7 @@ def unbalanced(model: Model, force: np.ndarray, u: np.ndarray) -> np.ndarray:
         force: (threads, n, 3) internal forces as the next step will take them.
         u: (n, 3) displacements.
     """
-    left = force.sum(axis=0)
+    left = force.sum(axis=0, dtype=float)
     far = model.far
     along = np.einsum("ij,ij->i", u[far.nodes], far.normals)[:, None] * far.normals
     np.add.at(left, far.nodes, -far.springs[:, :1] * along - far.springs[:, 1:] * (u[far.nodes] - along))

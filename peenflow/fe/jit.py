@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
+from numba.extending import overload
 
 
 def _cache_folder() -> Path:
@@ -39,3 +40,15 @@ def threaded(function: Any) -> Any:
 def inlined(function: Any) -> Any:
     """Compile a formula for one lane; it dissolves in the loop over lanes, which then becomes vector code."""
     return numba.njit(error_model="numpy", fastmath=_ALGEBRA, forceinline=True)(function)
+
+
+def number(value: float, like: Any) -> Any:
+    """A formula's constant in the precision of `like`: in single precision one double constant would drag all along."""
+    return type(like)(value)
+
+
+@overload(number)
+def _number(value, like):
+    if like == numba.types.float32:
+        return lambda value, like: numba.float32(value)
+    return lambda value, like: value

@@ -28,6 +28,13 @@ class Law(NamedTuple):
     n: float
 
 
+class Kinematic(NamedTuple):
+    """Backstress (`peenflow.fe.backstress`)."""
+
+    modulus: float
+    recall: float
+
+
 class Rate(NamedTuple):
     """Rate term."""
 

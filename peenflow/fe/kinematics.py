@@ -1,6 +1,6 @@
 """From the gradient of velocity to strain rate and rotation of a step."""
 
-from peenflow.fe.jit import inlined
+from peenflow.fe.jit import inlined, number
 
 
 @inlined
@@ -9,7 +9,7 @@ def midstep_gradient(g, dt):
 
     Strain measured half-way has no spurious stretch under rotation (Hughes & Winget 1980).
     """
-    h = 0.5 * dt
+    h = number(0.5, dt) * dt
     gx, gy, gz = g
     return (
         (
@@ -33,26 +33,28 @@ def midstep_gradient(g, dt):
 @inlined
 def strain_rate(L):
     """D = (L + Lᵀ)/2 as (xx, yy, zz, xy, yz, zx)."""
+    half = number(0.5, L[0][0])
     return (
         L[0][0],
         L[1][1],
         L[2][2],
-        0.5 * (L[0][1] + L[1][0]),
-        0.5 * (L[1][2] + L[2][1]),
-        0.5 * (L[2][0] + L[0][2]),
+        half * (L[0][1] + L[1][0]),
+        half * (L[1][2] + L[2][1]),
+        half * (L[2][0] + L[0][2]),
     )
 
 
 @inlined
 def rotation(L, dt):
     """Rotation of the step: (I − W Δt/2)⁻¹ (I + W Δt/2), W = (L − Lᵀ)/2, in Cayley's closed form."""
-    a, b, c = 0.5 * dt * (L[2][1] - L[1][2]), 0.5 * dt * (L[0][2] - L[2][0]), 0.5 * dt * (L[1][0] - L[0][1])
-    f = 1.0 / (1.0 + 0.25 * (a * a + b * b + c * c))
-    h = 0.5 * f
+    one, half, quarter = number(1.0, dt), number(0.5, dt), number(0.25, dt)
+    a, b, c = half * dt * (L[2][1] - L[1][2]), half * dt * (L[0][2] - L[2][0]), half * dt * (L[1][0] - L[0][1])
+    f = one / (one + quarter * (a * a + b * b + c * c))
+    h = half * f
     return (
-        (1.0 - h * (b * b + c * c), h * a * b - f * c, h * a * c + f * b),
-        (h * a * b + f * c, 1.0 - h * (a * a + c * c), h * b * c - f * a),
-        (h * a * c - f * b, h * b * c + f * a, 1.0 - h * (a * a + b * b)),
+        (one - h * (b * b + c * c), h * a * b - f * c, h * a * c + f * b),
+        (h * a * b + f * c, one - h * (a * a + c * c), h * b * c - f * a),
+        (h * a * c - f * b, h * b * c + f * a, one - h * (a * a + b * b)),
     )
 
 

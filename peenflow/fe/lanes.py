@@ -5,25 +5,34 @@ compiler knows every distance in it and turns loops over lanes into vector code.
 that (with eight, LLVM holds the loop for too short); the layout is explained in docs/theory/blocks-of-lanes.md.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from peenflow.fe import modes
 from peenflow.fe.jit import inlined, kernel
+from peenflow.fe.rows import LANES, read_row, subtract_row
 
-LANES = 16
+
+class Blocks(NamedTuple):
+    """Connectivity in blocks."""
+
+    nodes: np.ndarray  # (b, 8, LANES) int32; the last block is filled up with its last element
+    rows: np.ndarray  # (b, 8) whether the lanes' k-th nodes are numbered one after the other, as down a column
 
 
-def blocked(hexes: np.ndarray) -> np.ndarray:
-    """Connectivity (m, 8) as blocks (⌈m/LANES⌉, 8, LANES); the last block is filled up with its last element."""
-    blocks = -(-len(hexes) // LANES)
-    padded = np.concatenate([hexes, np.repeat(hexes[-1:], blocks * LANES - len(hexes), axis=0)])
-    return np.ascontiguousarray(padded.reshape(blocks, LANES, 8).transpose(0, 2, 1).astype(np.int32))
+def blocked(hexes: np.ndarray) -> Blocks:
+    """Connectivity (m, 8) in ⌈m/LANES⌉ blocks."""
+    count = -(-len(hexes) // LANES)
+    padded = np.concatenate([hexes, np.repeat(hexes[-1:], count * LANES - len(hexes), axis=0)])
+    nodes = np.ascontiguousarray(padded.reshape(count, LANES, 8).transpose(0, 2, 1).astype(np.int32))
+    return Blocks(nodes, (np.diff(nodes, axis=2) == 1).all(axis=2))
 
 
 def to_blocks(values: np.ndarray) -> np.ndarray:
     """Element values (m, …) as (blocks, …, LANES), filled up with zeros."""
     blocks = -(-len(values) // LANES)
-    padded = np.zeros((blocks * LANES, *values.shape[1:]))
+    padded = np.zeros((blocks * LANES, *values.shape[1:]), values.dtype)
     padded[: len(values)] = values
     return np.ascontiguousarray(np.moveaxis(padded.reshape(blocks, LANES, *values.shape[1:]), 1, -1))
 
@@ -34,25 +43,33 @@ def from_blocks(values: np.ndarray, elements: int) -> np.ndarray:
 
 
 @kernel
-def gather(nodes, field, out):
-    """out[component, node, lane] ← field[nodes[node, lane], component]."""
+def gather(blocks, block, field, out):
+    """out[component, node, lane] ← field[nodes[node, lane], component] of one block."""
+    nodes, flat = blocks.nodes[block], field.reshape(field.size)
     for k in range(8):
-        for lane in range(LANES):
-            i = nodes[k, lane]
-            out[k * LANES + lane] = field[i, 0]
-            out[(8 + k) * LANES + lane] = field[i, 1]
-            out[(16 + k) * LANES + lane] = field[i, 2]
+        if blocks.rows[block, k]:
+            read_row(flat, 3 * nodes[k, 0], out, k * LANES)
+        else:
+            for lane in range(LANES):
+                i = nodes[k, lane]
+                out[k * LANES + lane] = field[i, 0]
+                out[(8 + k) * LANES + lane] = field[i, 1]
+                out[(16 + k) * LANES + lane] = field[i, 2]
 
 
 @kernel
-def subtract(nodes, lanes, out, field):
-    """field[nodes[node, lane], component] −= out[component, node, lane] for the first `lanes` lanes."""
+def subtract(blocks, block, lanes, out, field):
+    """field[nodes[node, lane], component] −= out[component, node, lane] for the first `lanes` lanes of one block."""
+    nodes, flat = blocks.nodes[block], field.reshape(field.size)
     for k in range(8):
-        for lane in range(lanes):
-            i = nodes[k, lane]
-            field[i, 0] -= out[k * LANES + lane]
-            field[i, 1] -= out[(8 + k) * LANES + lane]
-            field[i, 2] -= out[(16 + k) * LANES + lane]
+        if blocks.rows[block, k]:
+            subtract_row(out, k * LANES, flat, 3 * nodes[k, 0])
+        else:
+            for lane in range(lanes):
+                i = nodes[k, lane]
+                field[i, 0] -= out[k * LANES + lane]
+                field[i, 1] -= out[(8 + k) * LANES + lane]
+                field[i, 2] -= out[(16 + k) * LANES + lane]
 
 
 @inlined

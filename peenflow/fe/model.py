@@ -4,11 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from peenflow.fe import boundary, pressure
-from peenflow.fe.internal_forces import Damping
-from peenflow.fe.johnson_cook import Law, Rate, Thermal
-from peenflow.fe.lanes import blocked
+from peenflow.fe import boundary, external, pressure
+from peenflow.fe.internal_forces import CONSTANT_ROWS, BulkViscosity, figures
+from peenflow.fe.johnson_cook import Kinematic, Law, Rate, Thermal
+from peenflow.fe.lanes import Blocks, blocked
 from peenflow.fe.motion import node_spans
+from peenflow.fe.rows import LANES
 from peenflow.fe.timestep import nodal_volumes
 from peenflow.records.deck import Deck, Spheres
 from peenflow.records.material import Material, ThermalSoftening
@@ -19,8 +20,9 @@ class Model:
     """What does not change while the solver runs (SI)."""
 
     X: np.ndarray  # (n, 3) reference coordinates
-    blocks: np.ndarray  # (b, 8, LANES) connectivity
+    blocks: Blocks
     elements: int
+    undeformed: np.ndarray  # (b, CONSTANT_ROWS·LANES) volume and hourglass stiffness
     mass: np.ndarray  # (n,)
     ranges: np.ndarray  # (threads + 1,) blocks of each thread
     chunks: np.ndarray  # (threads + 1,) nodes of each thread
@@ -28,70 +30,81 @@ class Model:
     law: Law
     rate: Rate | None
     thermal: Thermal | None
-    damping: Damping
+    kinematic: Kinematic | None
+    viscosity: BulkViscosity
     rollers: boundary.Rollers
     held: np.ndarray  # (n,) index into rollers, −1 where free
     far: boundary.Absorbers
     surface: np.ndarray  # (k,) surface nodes
     loads: pressure.Footprints | None
+    forces: external.Prescribed | None
+    loaded: np.ndarray  # nodes that either of them may push
     spheres: Spheres | None
     mirrors: tuple[tuple[np.ndarray, np.ndarray], ...]  # (point, unit normal) of each symmetry plane
 
 
-def constants(material: Material) -> tuple[Law, Rate | None, Thermal | None]:
-    """The material's numbers in the kernels' form; None for an effect that is off."""
-    m, rate, thermal = material, material.rate, material.thermal
-    law = Law(m.density, m.shear, m.bulk, m.c_p, m.A, m.B, m.n)
+def constants(material: Material, real: type = float) -> tuple[Law, Rate | None, Thermal | None, Kinematic | None]:
+    """The material's numbers in the kernels' form and precision; None for an effect that is off."""
+    m, rate, thermal, kinematic = material, material.rate, material.thermal, material.kinematic
+    law = Law(*map(real, (m.density, m.shear, m.bulk, m.c_p, m.A, m.B, m.n)))
     return (
         law,
-        None if rate is None else Rate(rate.C, rate.reference_rate),
-        None if thermal is None else _softening(thermal, m.density),
+        None if rate is None else Rate(real(rate.C), real(rate.reference_rate)),
+        None if thermal is None else Thermal(*map(real, _softening(thermal, m.density))),
+        None if kinematic is None else Kinematic(real(kinematic.modulus), real(kinematic.recall)),
     )
 
 
-def _softening(thermal: ThermalSoftening, density: float) -> Thermal:
+def _softening(thermal: ThermalSoftening, density: float) -> tuple[float, float, float, float]:
     heating = thermal.taylor_quinney / (density * thermal.heat_capacity)
-    return Thermal(thermal.m, thermal.room, thermal.melt, heating)
+    return thermal.m, thermal.room, thermal.melt, heating
 
 
 def build(deck: Deck, threads: int) -> Model:
     """Flatten a deck for a number of threads."""
     patch, controls = deck.patch, deck.controls
-    X = np.ascontiguousarray(patch.nodes, float)
+    real = np.dtype(controls.precision)
+    X = np.ascontiguousarray(patch.nodes, real)
     blocks = blocked(patch.hexes)
     elements = len(patch.hexes)
     volumes = np.zeros(len(X))
     nodal_volumes(blocks, elements, X, np.ones(elements), volumes)
-    ranges = np.linspace(0, len(blocks), threads + 1).astype(np.int64)
-    spans = node_spans(blocks, ranges)
+    undeformed = np.empty((len(blocks.nodes), CONSTANT_ROWS * LANES), real)
+    figures(blocks, X, deck.material.p_modulus, controls.hourglass_stiffness, undeformed)
+    ranges = np.linspace(0, len(blocks.nodes), threads + 1).astype(np.int64)
+    spans = node_spans(blocks.nodes, ranges)
     rollers = boundary.rollers(deck.rollers)
     held = np.full(len(X), -1, dtype=np.int64)
     held[rollers.nodes] = np.arange(len(rollers.nodes))
-    law, rate, thermal = constants(deck.material)
+    law, rate, thermal, kinematic = constants(deck.material, real.type)
     loads = None if deck.pressures is None else pressure.footprints(deck.pressures, patch)
-    if loads is not None:
-        spans[0] = 0, len(X)  # loads are added to the first thread's forces
+    forces = None if deck.forces is None else external.prescribed(deck.forces)
+    loaded = np.unique(np.concatenate([np.zeros(0, np.int64), *(part.nodes for part in (loads, forces) if part)]))
+    if len(loaded):
+        spans[0] = 0, len(X)  # they are added to the first thread's forces
     return Model(
         X=X,
         blocks=blocks,
         elements=elements,
-        mass=deck.material.density * volumes,
+        undeformed=undeformed,
+        mass=(deck.material.density * volumes).astype(real),
         ranges=ranges,
         chunks=np.linspace(0, len(X), threads + 1).astype(np.int64),
         spans=spans,
         law=law,
         rate=rate,
         thermal=thermal,
-        damping=Damping(
-            controls.hourglass_stiffness,
-            controls.bulk_viscosity_linear,
-            controls.bulk_viscosity_quadratic,
+        kinematic=kinematic,
+        viscosity=BulkViscosity(
+            real.type(controls.bulk_viscosity_linear), real.type(controls.bulk_viscosity_quadratic)
         ),
         rollers=rollers,
         held=held,
         far=boundary.absorbers(deck.far_fields, deck.material),
         surface=np.ascontiguousarray(patch.node_sets["surface"], np.int64),
         loads=loads,
+        forces=forces,
+        loaded=loaded,
         spheres=deck.spheres,
         mirrors=tuple((X[r.nodes[0]], r.normals[0]) for r in deck.rollers if r.mirror),
     )

@@ -4,6 +4,7 @@ import numpy as np
 
 from peenflow.fe.fields import cauchy_stress
 from peenflow.fe.lanes import from_blocks
+from peenflow.fe.ordering import in_order_of_deck
 from peenflow.fe.recorder import mean_force
 from peenflow.fe.solver import Solver
 from peenflow.records.response import Response, SphereResults
@@ -12,16 +13,21 @@ SAMPLING = 1e-9  # s, of the force history in which the peak is sought
 
 
 def stresses(solver: Solver) -> tuple[np.ndarray, np.ndarray]:
-    """Cauchy stress (m, 6) xx yy zz xy yz zx [Pa] and volumes (m,) [m³] of the present state."""
+    """Cauchy stress (m, 6) xx yy zz xy yz zx [Pa] and volumes (m,) [m³] of the present state, in the solver's order."""
     model, state = solver.model, solver.state
     stress, volumes = np.empty((model.elements, 6)), np.empty(model.elements)
     cauchy_stress(model.blocks, model.elements, model.X, state.u, state.deviator, model.law.bulk, stress, volumes)
     return stress, volumes
 
 
+def blocked_values(solver: Solver, blocked: np.ndarray) -> np.ndarray:
+    """Blocked element values (b, LANES) in the solver's order (m,)."""
+    return from_blocks(blocked, solver.model.elements).astype(float)
+
+
 def element_values(solver: Solver, blocked: np.ndarray) -> np.ndarray:
     """Blocked element values (b, LANES) in the deck's order (m,)."""
-    return from_blocks(blocked, solver.model.elements)
+    return in_order_of_deck(blocked_values(solver, blocked), solver.order.elements)
 
 
 def sphere_results(solver: Solver) -> SphereResults | None:
@@ -68,8 +74,8 @@ def response(solver: Solver, residual: float, updates_per_s: float) -> Response:
     stress, volumes = stresses(solver)
     state = solver.state
     return Response(
-        displacement=state.u.copy(),
-        stress=stress,
+        displacement=in_order_of_deck(state.u.astype(float), solver.order.nodes),
+        stress=in_order_of_deck(stress, solver.order.elements),
         peeq=element_values(solver, state.peeq),
         temperature=element_values(solver, state.temperature) if solver.model.thermal else None,
         spheres=sphere_results(solver),
@@ -79,6 +85,7 @@ def response(solver: Solver, residual: float, updates_per_s: float) -> Response:
         residual=residual,
         side_reaction=side_reaction(solver, stress, volumes),
         steps=state.step,
+        retries=state.retries,
         time_step=state.first_dt,
         element_updates_per_s=updates_per_s,
     )

@@ -97,13 +97,11 @@ def diagonal(X, u, a, b):
 
 
 @kernel
-def load_forces(loads, t, X, u, external):
-    """external ← the loads' nodal forces at time t: −p A n/4 at each quad's nodes, A n of the deformed quad.
+def add_pressure(loads, t, X, u, external):
+    """external (n, 3) [N] += nodal forces of the loads at time t: −p A n/4 at a quad's nodes, A n of the deformed quad.
 
-    A n is half the cross product of the quad's diagonals; `external` (n, 3) [N] is cleared at the loads' nodes first.
+    A n is half the cross product of the quad's diagonals.
     """
-    for i in loads.nodes:
-        external[i] = 0.0
     for s in range(len(loads.peak)):
         tau = (t - loads.t_start[s]) / loads.duration[s]
         if not 0.0 <= tau <= 1.0:
@@ -121,22 +119,3 @@ def load_forces(loads, t, X, u, external):
                 external[i, 0] -= eighth * (py * qz - pz * qy)
                 external[i, 1] -= eighth * (pz * qx - px * qz)
                 external[i, 2] -= eighth * (px * qy - py * qx)
-
-
-@kernel
-def add_at(nodes, external, force):
-    """force[i] += external[i] at `nodes`."""
-    for i in nodes:
-        for a in range(3):
-            force[i, a] += external[i, a]
-
-
-@kernel
-def work_done(nodes, external, before, v, drift):
-    """Σ f · (v₋ + v₊)/2 Δt over the loaded nodes [J]; `before` (k, 3) are their velocities before the step."""
-    work = 0.0
-    for k in range(len(nodes)):
-        i = nodes[k]
-        for a in range(3):
-            work += external[i, a] * 0.5 * (before[k, a] + v[i, a]) * drift
-    return work

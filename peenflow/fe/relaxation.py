@@ -13,7 +13,7 @@ import numpy as np
 from peenflow.fe import motion
 from peenflow.fe.contact import GONE
 from peenflow.fe.fields import cauchy_stress, unbalanced
-from peenflow.fe.internal_forces import Damping
+from peenflow.fe.internal_forces import BulkViscosity
 from peenflow.fe.model import Model
 from peenflow.fe.solver import BUNDLE, Solver
 from peenflow.fe.timestep import nodal_volumes, transit_times
@@ -41,7 +41,7 @@ def fictitious_mass(model: Model) -> np.ndarray:
     weights = np.minimum(1.0, MARGIN * times.min() / times) ** 2
     volumes = np.zeros(len(model.X))
     nodal_volumes(model.blocks, model.elements, model.X, weights, volumes)
-    return model.law.density * volumes
+    return (model.law.density * volumes).astype(model.X.dtype)
 
 
 def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] | None = None) -> float:
@@ -59,7 +59,7 @@ def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] 
         state.v[:] = 0.0
         state.last_dt = 0.0
     solver.mass = fictitious_mass(solver.model)
-    solver.damping = Damping(solver.model.damping.hourglass_stiffness, 0.0, 0.0)
+    solver.viscosity = BulkViscosity(*np.zeros(2, solver.model.X.dtype))
     solver.far = solver.model.far._replace(dashpots=np.zeros_like(solver.model.far.dashpots))
     left = residual(solver)
     while left > limit and state.time < state.relaxing_since + longest:

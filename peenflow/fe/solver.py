@@ -7,17 +7,27 @@ import numpy as np
 
 from peenflow.errors import RunError
 from peenflow.fe import balls as spheres
-from peenflow.fe import boundary, motion, pressure
+from peenflow.fe import boundary, external, motion, ordering, pressure
 from peenflow.fe.contact import Balls, Surface, correct
 from peenflow.fe.internal_forces import add_internal_forces
-from peenflow.fe.lanes import LANES
 from peenflow.fe.ledger import Ledger
 from peenflow.fe.model import build
 from peenflow.fe.recorder import ContactRecorder
+from peenflow.fe.rows import LANES
 from peenflow.fe.timestep import damped, least_transit_time
 from peenflow.records.deck import Deck
 
-BUNDLE = 20  # steps between looks at step size, candidates, energies and the guard
+BUNDLE = 20  # steps between looks at step size, candidates, energies and whether all is well
+SMALLER = 0.6  # of the step, each time the guard has gone back
+LARGEST_GROWTH = 0.1  # of the energy, over all that was brought in, at which a run is stopped before its end
+
+
+class UnstableError(RunError):
+    """The solution has gone wrong; `short` says what and where, the message what to do as well."""
+
+    def __init__(self, short: str, advice: str) -> None:
+        super().__init__(f"{short} {advice}")
+        self.short = short
 
 
 @dataclass
@@ -34,47 +44,49 @@ class State:
     deviator: np.ndarray  # (b, 5·LANES) Pa
     peeq: np.ndarray  # (b, LANES)
     temperature: np.ndarray  # (b, LANES) K
+    backstress: np.ndarray  # (b, 5·LANES) Pa, static; one block where there is none
     balls: Balls
     ledger: Ledger
     recorder: ContactRecorder
     first_dt: float = 0.0  # s
     relaxing_since: float = np.nan  # s, NaN while impacts go on
     hourglass_ratio: float = 0.0  # at the end of the impacts
+    retries: int = 0  # times the guard went back, each with smaller steps
 
 
 class Solver:
     """A deck in motion."""
 
     def __init__(self, deck: Deck, threads: int) -> None:
-        self.deck = deck
-        self.model = build(deck, threads)
+        self.deck, self.order = ordering.local(deck)
+        self.model = build(self.deck, threads)
         self.threads = threads
         self.state = self._initial()
-        # relaxation puts others in the place of these
-        self.mass, self.far, self.damping = self.model.mass, self.model.far, self.model.damping
+        self.as_in_motion()
         self.friction = deck.spheres.friction if deck.spheres else 0.0
-        self.candidates = spheres.candidates(self.state.balls, self.model, self.state.u, 0.0)
+        self.list_candidates(0.0)
         self._impulses = np.zeros((len(self.state.balls.radius), 3))
         self._kinetic = np.zeros((threads, 8))
         self._least = np.zeros((threads, 2))
-        self._external = np.zeros_like(self.model.X)
+        self._external = np.zeros((len(self.model.X) if len(self.model.loaded) else 0, 3))
         self._before_far = np.zeros((len(self.model.far.nodes), 3))
-        self._before_loads = np.zeros((len(self.model.loads.nodes) if self.model.loads else 0, 3))
+        self._before_loads = np.zeros((len(self.model.loaded), 3))
 
     def _initial(self) -> State:
-        model, n, b = self.model, len(self.model.X), len(self.model.blocks)
-        thermal = self.deck.material.thermal
+        model, n, b = self.model, len(self.model.X), len(self.model.blocks.nodes)
+        real, thermal = model.X.dtype, self.deck.material.thermal
         state = State(
             step=0,
             time=0.0,
             dt=0.0,
             last_dt=0.0,
-            u=np.zeros((n, 3)),
-            v=np.zeros((n, 3)),
-            force=np.zeros((self.threads, n, 3)),
-            deviator=np.zeros((b, 5 * LANES)),
-            peeq=np.zeros((b, LANES)),
-            temperature=np.full((b, LANES), thermal.initial if thermal else 0.0),
+            u=np.zeros((n, 3), real),
+            v=np.zeros((n, 3), real),
+            force=np.zeros((self.threads, n, 3), real),
+            deviator=np.zeros((b, 5 * LANES), real),
+            peeq=np.zeros((b, LANES), real),
+            temperature=np.full((b, LANES), thermal.initial if thermal else 0.0, real),
+            backstress=np.zeros((b if model.kinematic else 1, 5 * LANES), real),
             balls=spheres.initial(model),
             ledger=Ledger(self.threads),
             recorder=ContactRecorder(),
@@ -82,13 +94,22 @@ class Solver:
         state.ledger.work = state.ledger.shots = spheres.kinetic_energy(state.balls)
         return state
 
+    def as_in_motion(self) -> None:
+        """The masses, far field and viscosity of real motion; relaxation puts others in their place."""
+        self.mass, self.far, self.viscosity = self.model.mass, self.model.far, self.model.viscosity
+
     def take_over(self, earlier: "Solver") -> None:
         """Start from where an earlier run of the same mesh came to rest."""
         state, before = self.state, earlier.state
         state.u, state.force = before.u.copy(), before.force.copy()
-        state.deviator, state.peeq, state.temperature = (
-            a.copy() for a in (before.deviator, before.peeq, before.temperature)
+        state.deviator, state.peeq, state.temperature, state.backstress = (
+            a.copy() for a in (before.deviator, before.peeq, before.temperature, before.backstress)
         )
+
+    @property
+    def share(self) -> float:
+        """Of the stable step, after what the guard has taken off."""
+        return float(self.deck.controls.time_step_share * SMALLER**self.state.retries)
 
     @property
     def touching(self) -> bool:
@@ -104,7 +125,7 @@ class Solver:
         """Step to time `until` [s], and on while a sphere still touches.
 
         Raises:
-            RunError: an element inverted or a figure is no longer finite.
+            UnstableError: an element inverted, a figure is no longer finite, or energy grows.
         """
         while self.unfinished(until):
             self.bundle(after_step)
@@ -117,19 +138,24 @@ class Solver:
         if self.model.spheres is not None:
             horizon = BUNDLE * state.dt
             spheres.update_phases(state.balls, self.model.spheres, state.time, 2 * horizon)
-            self.candidates = spheres.candidates(state.balls, self.model, state.u, horizon)
+            self.list_candidates(horizon)
         for _ in range(BUNDLE):
             self.step()
             if after_step is not None:
                 after_step(self)
         state.ledger.sample(state.time)
-        self._guard()
+        self._look()
+
+    def list_candidates(self, horizon: float) -> None:
+        """Surface nodes that spheres may touch within `horizon` seconds."""
+        state = self.state
+        self.candidates = spheres.candidates(state.balls, self.model, state.u, state.v, horizon)
 
     def stable_step(self) -> float:
         """The next step [s] from the deformed mesh.
 
         Raises:
-            RunError: an element has inverted, or is not finite.
+            UnstableError: an element has inverted, or is not finite.
         """
         model, controls = self.model, self.deck.controls
         least_transit_time(
@@ -137,14 +163,14 @@ class Solver:
         )
         step, element = self._least[np.argmin(self._least[:, 0])]
         if not step > 0.0:
-            nodes = self.deck.patch.hexes[int(element)]
-            x, y, z = 1e3 * (model.X[nodes].mean(axis=0))
-            raise RunError(
-                f"The solver stopped at {self._now()}: element {int(element)} at ({x:.4g}, {y:.4g}, {z:.4g}) mm of the "
-                "patch has no volume left. A smaller accuracy.time_step or a finer accuracy.mesh_size bears larger "
-                "deformation; a speed or a material constant may be out of range."
+            e = int(element)
+            raise UnstableError(
+                f"The solver stopped at {self._now()}: element {self.order.elements[e]} at "
+                f"{_place(model.X[self.deck.patch.hexes[e]].mean(axis=0))} of the patch has no volume left.",
+                "A smaller accuracy.time_step or a finer accuracy.mesh_size bears larger deformation; a speed or a "
+                "material constant may be out of range.",
             )
-        return damped(float(step), controls.time_step_share, controls.bulk_viscosity_linear)
+        return damped(float(step), self.share, controls.bulk_viscosity_linear)
 
     def step(self) -> None:
         """From tⁿ to tⁿ⁺¹: predict, correct at the boundaries and contacts, new internal forces."""
@@ -152,15 +178,14 @@ class Solver:
         kick = 0.5 * (state.last_dt + dt)
         motion.remember(model.far.nodes, state.v, self._before_far)
         motion.remember(self.candidates.nodes, state.v, self.candidates.before)
-        if model.loads is not None:
-            motion.remember(model.loads.nodes, state.v, self._before_loads)
-            pressure.load_forces(model.loads, state.time, model.X, state.u, self._external)
-            pressure.add_at(model.loads.nodes, self._external, state.force[0])
+        if len(model.loaded):
+            motion.remember(model.loaded, state.v, self._before_loads)
+            self._push()
         motion.advance(model.chunks, model.spans, state.force, self.mass, state.u, state.v, kick, dt, self._kinetic)
         boundary.hold(model.rollers.nodes, model.rollers.projectors, state.u, state.v, dt)
         ledger.absorbed += boundary.absorb(self.far, self.mass, state.u, state.v, self._before_far, kick, dt)
-        if model.loads is not None:
-            ledger.work += pressure.work_done(model.loads.nodes, self._external, self._before_loads, state.v, dt)
+        if len(model.loaded):
+            ledger.work += external.work_done(model.loaded, self._external, self._before_loads, state.v, dt)
         if model.spheres is not None:
             self._collide(dt)
         ledger.kinetic = float(self._kinetic[:, 0].sum())
@@ -168,6 +193,15 @@ class Solver:
         state.step += 1
         state.last_dt = dt
         self.update_forces(dt)
+
+    def _push(self) -> None:
+        model, state = self.model, self.state
+        external.clear(model.loaded, self._external)
+        if model.loads is not None:
+            pressure.add_pressure(model.loads, state.time, model.X, state.u, self._external)
+        if model.forces is not None:
+            external.add_prescribed(model.forces, state.time, self._external)
+        external.add_at(model.loaded, self._external, state.force[0])
 
     def _collide(self, dt: float) -> None:
         model, state = self.model, self.state
@@ -181,19 +215,34 @@ class Solver:
     def update_forces(self, dt: float) -> None:
         """Internal forces of the present displacements into state.force, the material advanced by dt."""
         model, state = self.model, self.state
-        fields = (state.deviator, state.peeq, state.temperature)
+        fields = (state.deviator, state.peeq, state.temperature, state.backstress)
         add_internal_forces(
-            model.ranges, model.blocks, model.elements, model.X, state.u, state.v, fields,
-            state.force, state.ledger.elements, dt, model.law, self.damping, model.rate, model.thermal,
+            model.ranges, model.blocks, model.elements, model.undeformed, model.X, state.u, state.v, fields,
+            state.force, state.ledger.elements, model.X.dtype.type(dt), model.law, self.viscosity,
+            model.rate, model.thermal, model.kinematic,
         )  # fmt: skip
 
-    def _guard(self) -> None:
-        """Fail where a figure is no longer finite."""
-        if not np.isfinite(self.state.ledger.imbalance):
-            raise RunError(
-                f"The solver stopped at {self._now()}: energies are no longer finite. Lower accuracy.time_step, and "
-                "look for a speed or a material constant out of range."
-            )
+    def _look(self) -> None:
+        """See whether energies are finite and balance.
+
+        Raises:
+            UnstableError: they are not, or do not.
+        """
+        ledger, model = self.state.ledger, self.model
+        growth = ledger.imbalance / max(abs(ledger.work), 1e-300)
+        if growth <= LARGEST_GROWTH or len(model.loaded):
+            return
+        fastest = int(np.argmax(np.nan_to_num(np.abs(self.state.v).max(axis=1), nan=np.inf)))
+        what = f"energy has grown by {100 * growth:.2g} %" if np.isfinite(growth) else "energies are no longer finite"
+        raise UnstableError(
+            f"The solver stopped at {self._now()}: {what}, nodes are fastest at {_place(model.X[fastest])}.",
+            "Lower accuracy.time_step, and look for a speed or a material constant out of range.",
+        )
 
     def _now(self) -> str:
         return f"step {self.state.step} ({self.state.time * 1e6:.4g} µs)"
+
+
+def _place(point: np.ndarray) -> str:
+    x, y, z = 1e3 * point.astype(float)
+    return f"({x:.4g}, {y:.4g}, {z:.4g}) mm"

@@ -7,7 +7,8 @@ from numba import prange
 
 from peenflow.fe import modes
 from peenflow.fe.jit import inlined, kernel, threaded
-from peenflow.fe.lanes import LANES, gather, read_modes
+from peenflow.fe.lanes import gather, read_modes
+from peenflow.fe.rows import LANES
 
 
 @inlined
@@ -37,12 +38,12 @@ def transit_time(reference, displacement, lane, c_p, shortest):
         return 0.0
     xx, yy, zz, xy, yz, zx = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for m in g:
-        xx += 0.125 * m[0] * m[0]
-        yy += 0.125 * m[1] * m[1]
-        zz += 0.125 * m[2] * m[2]
-        xy += 0.125 * m[0] * m[1]
-        yz += 0.125 * m[1] * m[2]
-        zx += 0.125 * m[2] * m[0]
+        xx += 8.0 * m[0] * m[0]
+        yy += 8.0 * m[1] * m[1]
+        zz += 8.0 * m[2] * m[2]
+        xy += 8.0 * m[0] * m[1]
+        yz += 8.0 * m[1] * m[2]
+        zx += 8.0 * m[2] * m[0]
     rows = max(xx + abs(xy) + abs(zx), max(yy + abs(xy) + abs(yz), zz + abs(zx) + abs(yz)))
     bound = volume / (c_p * math.sqrt(2.0 * rows))
     if bound >= shortest:
@@ -54,11 +55,11 @@ def transit_time(reference, displacement, lane, c_p, shortest):
 def least_transit_time(ranges, blocks, elements, X, u, c_p, least):
     """Per thread the least stable step [s] and its element in `least` (threads, 2); NaN counts as 0."""
     for thread in prange(len(ranges) - 1):
-        reference, displacement = np.empty(24 * LANES), np.empty(24 * LANES)
+        reference, displacement = np.empty(24 * LANES, X.dtype), np.empty(24 * LANES, X.dtype)
         shortest, where = np.inf, -1
         for block in range(ranges[thread], ranges[thread + 1]):
-            gather(blocks[block], X, reference)
-            gather(blocks[block], u, displacement)
+            gather(blocks, block, X, reference)
+            gather(blocks, block, u, displacement)
             for lane in range(min(LANES, elements - block * LANES)):
                 step = transit_time(reference, displacement, lane, c_p, shortest)
                 if not step >= 0.0:
@@ -72,9 +73,9 @@ def least_transit_time(ranges, blocks, elements, X, u, c_p, least):
 @kernel
 def transit_times(blocks, elements, X, c_p, times):
     """Fill times (m,) [s] with every element's stable step in the reference configuration."""
-    reference, displacement = np.empty(24 * LANES), np.zeros(24 * LANES)
-    for block in range(len(blocks)):
-        gather(blocks[block], X, reference)
+    reference, displacement = np.empty(24 * LANES, X.dtype), np.zeros(24 * LANES, X.dtype)
+    for block in range(len(blocks.nodes)):
+        gather(blocks, block, X, reference)
         for lane in range(min(LANES, elements - block * LANES)):
             times[block * LANES + lane] = transit_time(reference, displacement, lane, c_p, np.inf)
 
@@ -82,14 +83,14 @@ def transit_times(blocks, elements, X, c_p, times):
 @kernel
 def nodal_volumes(blocks, elements, X, weights, volumes):
     """Add an eighth of each element's volume times its weight (m,) to its nodes: lumped mass over density [m³]."""
-    reference = np.empty(24 * LANES)
-    for block in range(len(blocks)):
-        gather(blocks[block], X, reference)
+    reference = np.empty(24 * LANES, X.dtype)
+    for block in range(len(blocks.nodes)):
+        gather(blocks, block, X, reference)
         for lane in range(min(LANES, elements - block * LANES)):
             x = read_modes(reference, lane)
             volume, _ = modes.volume_gradients(x[0], x[1], x[2], x[3], x[4], x[5])
             for k in range(8):
-                volumes[blocks[block, k, lane]] += 0.125 * volume * weights[block * LANES + lane]
+                volumes[blocks.nodes[block, k, lane]] += 0.125 * volume * weights[block * LANES + lane]
 
 
 def damped(step: float, share: float, viscosity: float) -> float:

@@ -3,7 +3,7 @@
 Tensors are ((xx, xy, xz), (yx, yy, yz), (zx, zy, zz)); symmetric ones (xx, yy, zz, xy, yz, zx).
 """
 
-from peenflow.fe.jit import inlined
+from peenflow.fe.jit import inlined, number
 
 
 @inlined
@@ -53,12 +53,6 @@ def outer(a, b):
 
 
 @inlined
-def apply(t, a):
-    """t · a."""
-    return dot(t[0], a), dot(t[1], a), dot(t[2], a)
-
-
-@inlined
 def apply_symmetric(s, a):
     """s · a for a symmetric s."""
     return (
@@ -77,4 +71,4 @@ def scaled_tensor(s, t):
 @inlined
 def double_dot(a, b):
     """a : b of symmetric tensors."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + number(2.0, a[0]) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])

@@ -80,6 +80,15 @@ class PressureLoads:
     corners: Annotated[int, of("1", "0: circle; 8: octagon of the circle's area")]
 
 
+@dataclass(frozen=True)
+class NodalForces:
+    """Forces on nodes by time, linear between the times and zero outside them, in the patch frame."""
+
+    nodes: Annotated[np.ndarray, of("1", "node numbers", "(k,) int32")]
+    time: Annotated[np.ndarray, of("s", "rising", "(j,)")]
+    force: Annotated[np.ndarray, of("N", "on each node at each time", "(j, k, 3)")]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Controls:
     """Numbers of the time integration (the readable part of the deck)."""
@@ -87,6 +96,7 @@ class Controls:
     title: Annotated[str, of("", "the case's title")]
     end_time: Annotated[float, of("s", "end of the impacts; relaxation follows")]
     time_step_share: Annotated[float, of("1", "share of the stable step")]
+    precision: Annotated[str, of("", "of nodal and element fields: float64 or float32; sums are float64")] = "float64"
     hourglass_stiffness: Annotated[float, of("1", "Flanagan–Belytschko stiffness coefficient")] = 0.05
     bulk_viscosity_linear: Annotated[float, of("1", "linear bulk viscosity")] = 0.06
     bulk_viscosity_quadratic: Annotated[float, of("1", "quadratic bulk viscosity")] = 1.2
@@ -108,3 +118,4 @@ class Deck:
     far_fields: tuple[FarField, ...]
     spheres: Spheres | None
     pressures: PressureLoads | None
+    forces: NodalForces | None = None

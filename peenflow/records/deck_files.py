@@ -14,13 +14,14 @@ import tomli_w
 from peenflow.errors import InputError
 from peenflow.files import write_text_whole
 from peenflow.records import hdf5
-from peenflow.records.deck import Controls, Deck, FarField, Placement, PressureLoads, Roller, Spheres
+from peenflow.records.deck import Controls, Deck, FarField, NodalForces, Placement, PressureLoads, Roller, Spheres
 from peenflow.records.fields import quantities
 from peenflow.records.material import Material
 from peenflow.records.target import Patch
 
 CONTROLS, ARRAYS = "deck.toml", "deck.h5"
 SHARES = ("time_step_share", "relaxation", "energy_error_limit")  # above 0, at most 1
+PRECISIONS = ("float64", "float32")
 NOT_NEGATIVE = ("hourglass_stiffness", "bulk_viscosity_linear", "bulk_viscosity_quadratic")
 
 
@@ -35,6 +36,7 @@ class DeckArrays:
     far_fields: tuple[FarField, ...]
     spheres: Spheres | None
     pressures: PressureLoads | None
+    forces: NodalForces | None
 
 
 def save_deck(deck: Deck, folder: Path) -> None:
@@ -73,7 +75,7 @@ def _controls_text(controls: Controls) -> str:
 def _read_controls(path: Path) -> Controls:
     try:
         values = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise InputError(
             f"The FE deck's {path} cannot be read: {error}. Mend it, or run `peenflow run CASE --from translate`."
         ) from error
@@ -100,7 +102,9 @@ def _check_controls(path: Path, controls: Controls) -> None:
         key, value = field.name, getattr(controls, field.name)
         if key == "title":
             continue
-        if key in NOT_NEGATIVE:
+        if key == "precision":
+            wrong, rule = value not in PRECISIONS, f"must be one of {', '.join(PRECISIONS)}"
+        elif key in NOT_NEGATIVE:
             wrong, rule = not (math.isfinite(value) and value >= 0), "must be finite and not negative"
         elif key in SHARES:
             wrong, rule = not 0 < value <= 1, "must be above 0 and at most 1"
@@ -115,7 +119,8 @@ def _check_arrays(arrays: DeckArrays, path: Path) -> None:
     patch, material = arrays.patch, arrays.material
     number = len(patch.nodes)
     held = [patch.hexes, patch.surface, *(s.nodes for s in arrays.rollers), *(s.nodes for s in arrays.far_fields)]
-    spheres, pressures = arrays.spheres, arrays.pressures
+    held += [arrays.forces.nodes] if arrays.forces else []
+    spheres, pressures, forces = arrays.spheres, arrays.pressures, arrays.forces
     faults = {
         "it has no elements": not len(patch.hexes),
         "a node's coordinate is not a finite number": not np.isfinite(patch.nodes).all(),
@@ -127,6 +132,9 @@ def _check_arrays(arrays: DeckArrays, path: Path) -> None:
         and not all(np.isfinite(a).all() for a in (spheres.point, spheres.velocity, spheres.t_start)),
         "a sphere's diameter or density is not positive": spheres is not None
         and not ((spheres.diameter > 0).all() and (spheres.density > 0).all()),
+        "the nodal forces' times do not rise": forces is not None
+        and (len(forces.time) < 2 or not (np.diff(forces.time) > 0).all()),
+        "a nodal force is not a finite number": forces is not None and not np.isfinite(forces.force).all(),
         "a pressure load's radius or duration is not positive": pressures is not None
         and not ((pressures.radius > 0).all() and (pressures.duration > 0).all()),
     }

@@ -27,6 +27,14 @@ class ThermalSoftening:
 
 
 @dataclass(frozen=True)
+class KinematicHardening:
+    """Backstress of Armstrong and Frederick: ẋ = (2/3) C ε̇_p − γ x ṗ; a first loading still follows JC's curve."""
+
+    modulus: Annotated[float, of("Pa", "C")]
+    recall: Annotated[float, of("1", "γ; the backstress saturates at C/γ")]
+
+
+@dataclass(frozen=True)
 class Material:
     """Elastic–plastic target: σ_y = (A + B ε_p^n)·rate·thermal."""
 
@@ -39,6 +47,7 @@ class Material:
     n: Annotated[float, of("1", "hardening exponent")]
     rate: RateHardening | None
     thermal: ThermalSoftening | None
+    kinematic: KinematicHardening | None = None
 
     @property
     def shear(self) -> float:

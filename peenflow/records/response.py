@@ -52,6 +52,7 @@ class Response:
     residual: Annotated[float, of("1", "unbalanced over internal nodal force after relaxation")]
     side_reaction: Annotated[float, of("1", "relative difference of ∫σ dA over a mid section and the sides' reaction")]
     steps: Annotated[int, of("1", "explicit steps, relaxation included")]
+    retries: Annotated[int, of("1", "times the solver went back to go on with smaller steps")]
     time_step: Annotated[float, of("s", "first stable step used")]
     # a measurement of the machine, not of the part: pages do not go stale with it
     element_updates_per_s: Annotated[float, of("1/s", "elements × steps over wall time")] = field(

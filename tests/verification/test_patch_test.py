@@ -8,6 +8,7 @@ import pytest
 from decks import deck, elastic
 
 from peenflow.fe import outcome
+from peenflow.fe.internal_forces import BulkViscosity
 from peenflow.fe.solver import Solver
 
 GRADIENTS = {
@@ -26,7 +27,7 @@ def test_constant_strain_on_distorted_elements(cube, rung, name):
     gradient, dt = 1e-6 * GRADIENTS[name], 1e-9
     solver.state.u[:] = patch.nodes @ gradient.T
     solver.state.v[:] = solver.state.u / dt
-    solver.damping = solver.damping._replace(bulk_linear=0.0, bulk_quadratic=0.0)
+    solver.viscosity = BulkViscosity(0.0, 0.0)
     solver.update_forces(dt)
 
     strain = 0.5 * (gradient + gradient.T)

@@ -7,6 +7,7 @@ import numpy as np
 from decks import deck, elastic
 
 from peenflow.fe import outcome
+from peenflow.fe.internal_forces import BulkViscosity
 from peenflow.fe.solver import Solver
 from peenflow.geometry.block import build_block
 
@@ -18,7 +19,7 @@ def test_a_full_turn_brings_the_stress_back(rung):
     patch = build_block(lines, lines, np.array([1e-5]))
     solver = Solver(deck(patch, elastic()), threads=1)
     X, state = patch.nodes, solver.state
-    solver.damping = solver.damping._replace(bulk_linear=0.0, bulk_quadratic=0.0)
+    solver.viscosity = BulkViscosity(0.0, 0.0)
     strained = X * [1.0 + 2e-3, 1.0 - 1e-3, 1.0 - 0.5e-3] + np.outer(X[:, 1], [1e-3, 0, 0])
     state.u[:] = strained - X
     state.v[:] = state.u / DT

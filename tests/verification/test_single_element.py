@@ -8,6 +8,7 @@ import pytest
 from decks import deck, inconel
 
 from peenflow.fe import outcome
+from peenflow.fe.internal_forces import BulkViscosity
 from peenflow.fe.solver import Solver
 from peenflow.geometry.block import build_block
 from peenflow.records.material import RateHardening, ThermalSoftening
@@ -20,7 +21,7 @@ def stretched(material, rate):
     lines = 1e-5 * np.arange(2)
     patch = build_block(lines, lines, np.array([1e-5]))
     solver = Solver(deck(patch, material), threads=1)
-    solver.damping = solver.damping._replace(bulk_linear=0.0, bulk_quadratic=0.0)
+    solver.viscosity = BulkViscosity(0.0, 0.0)
     dt = FINAL / rate / STEPS
     for step in range(1, STEPS + 1):
         strain = FINAL * step / STEPS

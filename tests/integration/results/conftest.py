@@ -17,7 +17,7 @@ from peenflow.records.response import Energies, Response, SphereResults
 from peenflow.records.target import Patch
 from peenflow.records.translation import Translation
 from peenflow.records.upstream import Upstream
-from peenflow.scene import Decision, Knobs, Scene, ShotProperties
+from peenflow.scene import Decision, Knobs, Limit, Scene, ShotProperties, Thrown
 
 DIAMETER = 0.3556e-3
 HOLE = BoltHole(3.75e-3, 25e-3)
@@ -152,6 +152,7 @@ def make_response(patch: Patch, impacts: Impacts):
         hourglass_energy_ratio=0.012,
         residual=0.0008,
         side_reaction=0.002,
+        retries=0,
         steps=30000,
         time_step=9e-10,
         element_updates_per_s=2.3e7,
@@ -214,9 +215,11 @@ def make_scene(case, surface):
         directory=Path("."),
         surface=surface,
         shot=SHOT,
+        thrown=Thrown(SHOT, np.array([SHOT.diameter]), np.ones(1)),
         material=MATERIAL,
         knobs=knobs,
         effects=effects,
+        not_modelled={"shot_yielding": Limit(0.5, "4.4 GPa is 3 times the shot's yield stress")},
         speed=62.5,
         dent_radius=61e-6,
         contact_time=0.45e-6,

@@ -19,7 +19,7 @@ def test_a_triad_moves_what_a_memory_can():
 
 
 def test_a_tiny_cube_gives_a_row_for_every_share():
-    rows = list(updates.measure(4, "random", {1: 1e10}, bundles=2))
+    rows = list(updates.measure(4, "random", "float64", {1: 1e10}, bundles=2))
     assert [(row.elements, row.threads, row.order, row.precision) for row in rows] == [(64, 1, "random", "float64")] * 3
     assert [row.yielding for row in rows] == pytest.approx([0.0, 0.2, 1.0], abs=1 / 64)
     for row in rows:

@@ -23,7 +23,7 @@ def load(corners=0, growth=FLAT, shape=FLAT):
 def forces(loads, t, u=None):
     external = np.zeros_like(PATCH.nodes)
     u = np.zeros_like(PATCH.nodes) if u is None else u
-    pressure.load_forces(pressure.footprints(loads, PATCH), t, PATCH.nodes, u, external)
+    pressure.add_pressure(pressure.footprints(loads, PATCH), t, PATCH.nodes, u, external)
     return external
 
 
@@ -42,7 +42,7 @@ def test_the_total_is_right_on_a_mesh_as_coarse_as_a_dent(elements, reach):
     patch = build_block(lines, lines, np.array([size]))
     fixed = (np.array([0.0, 1.0]), np.array([reach, reach]))
     external = np.zeros_like(patch.nodes)
-    pressure.load_forces(
+    pressure.add_pressure(
         pressure.footprints(load(growth=fixed), patch), 0.5e-6, patch.nodes, np.zeros_like(patch.nodes), external
     )
     assert external[:, 2].sum() == pytest.approx(-2e9 * np.pi * (reach * 0.5e-3) ** 2, rel=0.05)

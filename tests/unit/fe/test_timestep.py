@@ -14,7 +14,7 @@ def step(patch, u=None):
     least = np.zeros((1, 2))
     blocks = blocked(patch.hexes)
     u = np.zeros_like(patch.nodes) if u is None else u
-    least_transit_time(np.array([0, len(blocks)]), blocks, len(patch.hexes), patch.nodes, u, C, least)
+    least_transit_time(np.array([0, len(blocks.nodes)]), blocks, len(patch.hexes), patch.nodes, u, C, least)
     return least[0]
 
 

@@ -1,0 +1,95 @@
+"""Kinematic hardening beside Johnson–Cook: backstress of Armstrong and Frederick (1966), as Chaboche (1986) uses it.
+
+The static backstress χ follows χ̇ = (2/3) C ε̇_p − γ χ ṗ; the yield surface is |s − f χ| = f R with f the rate and
+temperature factors of Johnson–Cook and √(3/2) in the norm. R(p) = A + B pⁿ − (C/γ)(1 − e^{−γp}): what a first loading
+meets is Johnson–Cook's curve, whose constants were measured on it, and only reversals differ.
+
+The implicit return has one unknown. With ζ(Δ) = s_trial − f χ/(1 + γΔ), the new s − f χ is parallel to ζ, and
+
+    √(3/2) |ζ(Δ)| − 3GΔ − f C Δ/(1 + γΔ) = f R(p + Δ)
+"""
+
+import math
+
+from peenflow.fe.jit import inlined, kernel
+from peenflow.fe.johnson_cook import MAX_ITERATIONS, NEGLIGIBLE, TOLERANCE
+from peenflow.fe.vectors import double_dot
+
+
+@inlined
+def radius(p, law, kinematic):
+    """R(p) [Pa]: the static isotropic part."""
+    hard = law.B * p**law.n if p > 0.0 else 0.0
+    return law.A + hard - kinematic.modulus / kinematic.recall * (1.0 - math.exp(-kinematic.recall * p))
+
+
+@inlined
+def shifted(trial, chi, share):
+    """trial − share χ of deviators (xx, yy, zz, xy, yz, zx)."""
+    return (
+        trial[0] - share * chi[0],
+        trial[1] - share * chi[1],
+        trial[2] - share * chi[2],
+        trial[3] - share * chi[3],
+        trial[4] - share * chi[4],
+        trial[5] - share * chi[5],
+    )
+
+
+@inlined
+def equivalent(s):
+    """√(3/2 s:s)."""
+    return math.sqrt(1.5 * double_dot(s, s))
+
+
+@kernel
+def excess(delta, trial, chi, peeq, factor, law, kinematic):
+    """Left less right side of the return's equation [Pa]: falls with Δ."""
+    fading = 1.0 / (1.0 + kinematic.recall * delta)
+    pulled = (3.0 * law.shear + factor * kinematic.modulus * fading) * delta
+    return equivalent(shifted(trial, chi, factor * fading)) - pulled - factor * radius(peeq + delta, law, kinematic)
+
+
+@kernel
+def kinematic_increment(trial, chi, peeq, factor, law, kinematic):
+    """Δ ≥ 0 that puts the stress onto the yield surface; 0 for an elastic step.
+
+    Regula falsi with Illinois' halving (Dowell & Jarratt 1971): the bracket always holds the root.
+
+    Args:
+        trial, chi: trial deviator and static backstress [Pa] (xx, yy, zz, xy, yz, zx).
+        peeq: plastic strain so far.
+        factor: rate and temperature factors of the flow stress.
+    """
+    above = excess(0.0, trial, chi, peeq, factor, law, kinematic)
+    scale = equivalent(trial)
+    if above <= 0.0:
+        return 0.0
+    low, high = 0.0, (above + factor * equivalent(chi)) / (3.0 * law.shear)
+    below = excess(high, trial, chi, peeq, factor, law, kinematic)
+    if high <= NEGLIGIBLE or below >= 0.0:
+        return high
+    delta = high
+    for _ in range(MAX_ITERATIONS):
+        delta = (low * below - high * above) / (below - above)
+        miss = excess(delta, trial, chi, peeq, factor, law, kinematic)
+        if abs(miss) <= TOLERANCE * scale:
+            break
+        if miss > 0.0:
+            low, above, below = delta, miss, 0.5 * below
+        else:
+            high, below, above = delta, miss, 0.5 * above
+    return delta
+
+
+@inlined
+def returned(trial, chi, delta, factor, law, kinematic):
+    """(deviator, static backstress, stress that does plastic work [Pa]) after an increment Δ > 0."""
+    fading = 1.0 / (1.0 + kinematic.recall * delta)
+    zeta = shifted(trial, chi, factor * fading)
+    size = equivalent(zeta)
+    plastic = 1.5 * delta / size  # Δε_p = plastic ζ
+    deviator = shifted(trial, zeta, 2.0 * law.shear * plastic)
+    moved = fading * 2.0 / 3.0 * kinematic.modulus * plastic
+    new = shifted(shifted((0.0, 0.0, 0.0, 0.0, 0.0, 0.0), chi, -fading), zeta, -moved)
+    return deviator, new, plastic * double_dot(deviator, zeta) / delta
