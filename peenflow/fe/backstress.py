@@ -17,13 +17,6 @@ from peenflow.fe.vectors import double_dot
 
 
 @inlined
-def radius(p, law, kinematic):
-    """R(p) [Pa]: the static isotropic part."""
-    hard = law.B * p**law.n if p > 0.0 else 0.0
-    return law.A + hard - kinematic.modulus / kinematic.recall * (1.0 - math.exp(-kinematic.recall * p))
-
-
-@inlined
 def shifted(trial, chi, share):
     """trial − share χ of deviators (xx, yy, zz, xy, yz, zx)."""
     return (
@@ -44,41 +37,49 @@ def equivalent(s):
 
 @kernel
 def excess(delta, trial, chi, peeq, factor, law, kinematic):
-    """Left less right side of the return's equation [Pa]: falls with Δ."""
-    fading = 1.0 / (1.0 + kinematic.recall * delta)
+    """Left less right side of the return's equation [Pa], which falls with Δ, and its derivative by Δ [Pa]."""
+    fading, p = 1.0 / (1.0 + kinematic.recall * delta), peeq + delta
+    zeta = shifted(trial, chi, factor * fading)
+    size, remembered = equivalent(zeta), math.exp(-kinematic.recall * p)
+    hard = law.B * p**law.n if p > 0.0 else 0.0
+    radius = law.A + hard - kinematic.modulus / kinematic.recall * (1.0 - remembered)
     pulled = (3.0 * law.shear + factor * kinematic.modulus * fading) * delta
-    return equivalent(shifted(trial, chi, factor * fading)) - pulled - factor * radius(peeq + delta, law, kinematic)
+    turning = 1.5 * factor * kinematic.recall * fading * fading * double_dot(zeta, chi) / max(size, 1e-300)
+    hardening = (law.n * hard / p if p > 0.0 else 0.0) - kinematic.modulus * remembered
+    slope = turning - 3.0 * law.shear - factor * (kinematic.modulus * fading * fading + hardening)
+    return size - pulled - factor * radius, slope
 
 
 @kernel
 def kinematic_increment(trial, chi, peeq, factor, law, kinematic):
     """Δ ≥ 0 that puts the stress onto the yield surface; 0 for an elastic step.
 
-    Regula falsi with Illinois' halving (Dowell & Jarratt 1971): the bracket always holds the root.
+    Newton within a bracket that holds the root, bisected when Newton leaves it.
 
     Args:
         trial, chi: trial deviator and static backstress [Pa] (xx, yy, zz, xy, yz, zx).
         peeq: plastic strain so far.
         factor: rate and temperature factors of the flow stress.
     """
-    above = excess(0.0, trial, chi, peeq, factor, law, kinematic)
-    scale = equivalent(trial)
-    if above <= 0.0:
+    miss, slope = excess(0.0, trial, chi, peeq, factor, law, kinematic)
+    if miss <= 0.0:
         return 0.0
-    low, high = 0.0, (above + factor * equivalent(chi)) / (3.0 * law.shear)
-    below = excess(high, trial, chi, peeq, factor, law, kinematic)
-    if high <= NEGLIGIBLE or below >= 0.0:
+    scale = equivalent(trial)
+    low, high = 0.0, (miss + factor * equivalent(chi)) / (3.0 * law.shear)
+    if high <= NEGLIGIBLE:
         return high
-    delta = high
+    delta = 0.0
     for _ in range(MAX_ITERATIONS):
-        delta = (low * below - high * above) / (below - above)
-        miss = excess(delta, trial, chi, peeq, factor, law, kinematic)
+        delta -= miss / slope
+        if not low < delta < high:
+            delta = 0.5 * (low + high)
+        miss, slope = excess(delta, trial, chi, peeq, factor, law, kinematic)
         if abs(miss) <= TOLERANCE * scale:
             break
         if miss > 0.0:
-            low, above, below = delta, miss, 0.5 * below
+            low = delta
         else:
-            high, below, above = delta, miss, 0.5 * above
+            high = delta
     return delta
 
 

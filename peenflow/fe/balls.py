@@ -18,7 +18,7 @@ def initial(model: Model) -> Balls:
     spheres = model.spheres
     if spheres is None:
         none, vectors, tensors = np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3, 3))
-        return Balls(none, none, tensors, tensors, vectors, vectors, vectors, np.zeros(0, np.int64))
+        return Balls(none, none, tensors, tensors, vectors, vectors, vectors, np.zeros(0, np.int64), none)
     radius = 0.5 * spheres.diameter
     count = len(radius)
     mass = spheres.density * np.pi / 6 * spheres.diameter**3
@@ -33,9 +33,8 @@ def initial(model: Model) -> Balls:
         projector[on_plane] = projector[on_plane] @ (np.eye(3) - mirror)
         turning[on_plane] = turning[on_plane] @ mirror
         velocity[on_plane] -= np.outer(velocity[on_plane] @ normal, normal)
-    return Balls(
-        radius, mass, projector, turning, centre, velocity, np.zeros((count, 3)), np.full(count, WAITING, np.int64)
-    )
+    phase, left = np.full(count, WAITING, np.int64), np.full(count, np.nan)
+    return Balls(radius, mass, projector, turning, centre, velocity, np.zeros((count, 3)), phase, left)
 
 
 def centres(spheres: Spheres, t: float) -> np.ndarray:
@@ -54,7 +53,8 @@ def update_phases(balls: Balls, spheres: Spheres, t: float, notice: float) -> No
     height = np.einsum("ij,ij->i", balls.centre - spheres.point, spheres.normal) - balls.radius
     leaving = np.einsum("ij,ij->i", balls.velocity, spheres.normal) > 0
     left = (leaving & (height > CLEARANCE * balls.radius)) | (height < -2 * balls.radius)
-    balls.phase[(balls.phase == LIVE) & left] = GONE
+    leaves = (balls.phase == LIVE) & left
+    balls.phase[leaves], balls.left[leaves] = GONE, t
 
 
 @kernel

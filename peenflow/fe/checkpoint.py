@@ -14,8 +14,8 @@ from peenflow.files import written_whole
 from peenflow.records.deck import Deck
 
 SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "hourglass_ratio", "retries")
-ARRAYS = ("u", "v", "force", "deviator", "peeq", "temperature", "backstress")
-SUMS = ("kinetic", "shots", "contact", "friction", "absorbed", "relaxed", "work")
+ARRAYS = ("u", "v", "force", "deviator", "peeq", "temperature", "backstress", "active")
+SUMS = ("kinetic", "shots", "contact", "friction", "absorbed", "relaxed", "work", "dormant")
 
 
 def identity(deck: Deck, threads: int) -> str:
@@ -60,4 +60,5 @@ def resume(solver: Solver, path: Path) -> bool:
     state.ledger.elements = saved["element_sums"]
     state.ledger.rows = [tuple(row) for row in saved["rows"].tolist()]
     state.recorder = ContactRecorder(**{name: saved[f"recorder_{name}"].tolist() for name in vars(ContactRecorder())})
+    solver.as_in_motion()
     return True

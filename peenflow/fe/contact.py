@@ -33,6 +33,7 @@ class Balls(NamedTuple):
     velocity: np.ndarray  # (s, 3) m/s
     spin: np.ndarray  # (s, 3) rad/s
     phase: np.ndarray  # (s,) WAITING, LIVE or GONE
+    left: np.ndarray  # (s,) s, when it was let go
 
 
 class Candidates(NamedTuple):

@@ -242,12 +242,29 @@ def nodal_forces(work, deviator, forces):
 
 @threaded
 def add_internal_forces(
-    ranges, blocks, elements, undeformed, X, u, v, state, force, energies, dt, law, viscosity, rate, thermal, kinematic
+    ranges,
+    active,
+    blocks,
+    elements,
+    undeformed,
+    X,
+    u,
+    v,
+    state,
+    force,
+    energies,
+    dt,
+    law,
+    viscosity,
+    rate,
+    thermal,
+    kinematic,
 ):
     """Subtract the internal forces of all elements from `force` and advance their state by Δt.
 
     Args:
-        ranges: (threads + 1,) first block of each thread.
+        ranges: (threads + 1,) each thread's part of `active`.
+        active: (k,) numbers of the blocks that take part.
         blocks: Blocks.
         elements: number of elements, without the last block's filling.
         undeformed: (blocks, CONSTANT_ROWS·LANES), see `figures`.
@@ -265,7 +282,8 @@ def add_internal_forces(
         velocity, forces = np.empty(24 * LANES, X.dtype), np.empty(24 * LANES, X.dtype)
         work = np.empty(WORK_ROWS * LANES, X.dtype)
         sums = np.zeros(SUMS * LANES)  # float64, a sum a lane: no addition waits for the one before
-        for block in range(ranges[thread], ranges[thread + 1]):
+        for turn in range(ranges[thread], ranges[thread + 1]):
+            block = active[turn]
             gather(blocks, block, X, reference)
             gather(blocks, block, u, displacement)
             gather(blocks, block, v, velocity)

@@ -20,6 +20,7 @@ class Ledger:
     absorbed: float = 0.0
     relaxed: float = 0.0
     work: float = 0.0
+    dormant: float = 0.0  # hourglass energy of sleeping elements, which the element sweep does not see
     elements: np.ndarray = field(init=False)  # (threads, ENERGIES), added to by the element sweep
     rows: list[tuple[float, ...]] = field(default_factory=list)
 
@@ -28,7 +29,7 @@ class Ledger:
 
     def of_elements(self, kind: int) -> float:
         """Sum over threads of one of the element sweep's energies."""
-        return float(self.elements[:, kind].sum())
+        return float(self.elements[:, kind].sum()) + (self.dormant if kind == HOURGLASS else 0.0)
 
     @property
     def imbalance(self) -> float:

@@ -8,7 +8,6 @@ from peenflow.fe import boundary, external, pressure
 from peenflow.fe.internal_forces import CONSTANT_ROWS, BulkViscosity, figures
 from peenflow.fe.johnson_cook import Kinematic, Law, Rate, Thermal
 from peenflow.fe.lanes import Blocks, blocked
-from peenflow.fe.motion import node_spans
 from peenflow.fe.rows import LANES
 from peenflow.fe.timestep import nodal_volumes
 from peenflow.records.deck import Deck, Spheres
@@ -24,9 +23,11 @@ class Model:
     elements: int
     undeformed: np.ndarray  # (b, CONSTANT_ROWS·LANES) volume and hourglass stiffness
     mass: np.ndarray  # (n,)
+    threads: int
     ranges: np.ndarray  # (threads + 1,) blocks of each thread
     chunks: np.ndarray  # (threads + 1,) nodes of each thread
-    spans: np.ndarray  # (threads, 2) nodes each thread's elements touch
+    centres: np.ndarray  # (b, 3) of the blocks
+    reaches: np.ndarray  # (b,) from there to their farthest nodes
     law: Law
     rate: Rate | None
     thermal: Thermal | None
@@ -72,7 +73,8 @@ def build(deck: Deck, threads: int) -> Model:
     undeformed = np.empty((len(blocks.nodes), CONSTANT_ROWS * LANES), real)
     figures(blocks, X, deck.material.p_modulus, controls.hourglass_stiffness, undeformed)
     ranges = np.linspace(0, len(blocks.nodes), threads + 1).astype(np.int64)
-    spans = node_spans(blocks.nodes, ranges)
+    corners = X[blocks.nodes.reshape(len(blocks.nodes), -1)].astype(float)
+    centres = corners.mean(axis=1)
     rollers = boundary.rollers(deck.rollers)
     held = np.full(len(X), -1, dtype=np.int64)
     held[rollers.nodes] = np.arange(len(rollers.nodes))
@@ -80,17 +82,17 @@ def build(deck: Deck, threads: int) -> Model:
     loads = None if deck.pressures is None else pressure.footprints(deck.pressures, patch)
     forces = None if deck.forces is None else external.prescribed(deck.forces)
     loaded = np.unique(np.concatenate([np.zeros(0, np.int64), *(part.nodes for part in (loads, forces) if part)]))
-    if len(loaded):
-        spans[0] = 0, len(X)  # they are added to the first thread's forces
     return Model(
         X=X,
         blocks=blocks,
         elements=elements,
         undeformed=undeformed,
         mass=(deck.material.density * volumes).astype(real),
+        threads=threads,
         ranges=ranges,
         chunks=np.linspace(0, len(X), threads + 1).astype(np.int64),
-        spans=spans,
+        centres=centres,
+        reaches=np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1),
         law=law,
         rate=rate,
         thermal=thermal,

@@ -9,7 +9,7 @@ from peenflow.fe.jit import kernel, threaded
 
 
 @threaded
-def advance(chunks, spans, force, mass, u, v, kick, drift, kinetic):
+def advance(chunks, spans, awake, force, mass, u, v, kick, drift, kinetic):
     """v += kick·f/m, u += drift·v, and the kinetic energy between; clears `force` for the next sweep.
 
     Kinetic energy at the force's time is ½ m v₋·v₊, v∓ the velocities half a step before and after: with it the
@@ -18,6 +18,7 @@ def advance(chunks, spans, force, mass, u, v, kick, drift, kinetic):
     Args:
         chunks: (threads + 1,) first node of each thread.
         spans: (threads, 2) first and last+1 node each thread of the element sweep writes to.
+        awake: (n,) bool, nodes that move; the others stand still.
         force: (threads, n, 3) [N], zeroed.
         mass: (n,) [kg].
         u, v: (n, 3) displacement [m] and velocity [m/s], changed in place.
@@ -38,6 +39,8 @@ def advance(chunks, spans, force, mass, u, v, kick, drift, kinetic):
                     force[s, i, 0] = 0.0
                     force[s, i, 1] = 0.0
                     force[s, i, 2] = 0.0
+            if not awake[i]:
+                continue
             a = kick / mass[i]
             vx, vy, vz = v[i, 0] + a * fx, v[i, 1] + a * fy, v[i, 2] + a * fz
             energy += 0.5 * mass[i] * (v[i, 0] * vx + v[i, 1] * vy + v[i, 2] * vz)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from peenflow.fe import motion
+from peenflow.fe.activity import everywhere
 from peenflow.fe.contact import GONE
 from peenflow.fe.fields import cauchy_stress, unbalanced
 from peenflow.fe.internal_forces import BulkViscosity
@@ -53,6 +54,7 @@ def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] 
     if np.isnan(state.relaxing_since):
         state.relaxing_since, state.hourglass_ratio = state.time, state.ledger.hourglass_ratio
         state.balls.phase[:] = GONE
+        solver.let_take_part(everywhere(solver.model))
         # the masses change: begin at rest, with half a kick
         state.ledger.relaxed += state.ledger.kinetic
         state.ledger.kinetic = 0.0

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from peenflow.errors import RunError
+from peenflow.fe import activity, boundary, external, motion, ordering, pressure
 from peenflow.fe import balls as spheres
-from peenflow.fe import boundary, external, motion, ordering, pressure
 from peenflow.fe.contact import Balls, Surface, correct
-from peenflow.fe.internal_forces import add_internal_forces
+from peenflow.fe.internal_forces import HOURGLASS, add_internal_forces
 from peenflow.fe.ledger import Ledger
 from peenflow.fe.model import build
 from peenflow.fe.recorder import ContactRecorder
@@ -45,6 +45,7 @@ class State:
     peeq: np.ndarray  # (b, LANES)
     temperature: np.ndarray  # (b, LANES) K
     backstress: np.ndarray  # (b, 5·LANES) Pa, static; one block where there is none
+    active: np.ndarray  # numbers of the blocks of elements that take part
     balls: Balls
     ledger: Ledger
     recorder: ContactRecorder
@@ -87,6 +88,7 @@ class Solver:
             peeq=np.zeros((b, LANES), real),
             temperature=np.full((b, LANES), thermal.initial if thermal else 0.0, real),
             backstress=np.zeros((b if model.kinematic else 1, 5 * LANES), real),
+            active=activity.everywhere(model),
             balls=spheres.initial(model),
             ledger=Ledger(self.threads),
             recorder=ContactRecorder(),
@@ -95,8 +97,9 @@ class Solver:
         return state
 
     def as_in_motion(self) -> None:
-        """The masses, far field and viscosity of real motion; relaxation puts others in their place."""
-        self.mass, self.far, self.viscosity = self.model.mass, self.model.far, self.model.viscosity
+        """Masses, far field, viscosity and who takes part, of real motion; relaxation puts others in their place."""
+        self._take_up()
+        self.mass, self.viscosity = self.model.mass, self.model.viscosity
 
     def take_over(self, earlier: "Solver") -> None:
         """Start from where an earlier run of the same mesh came to rest."""
@@ -139,6 +142,7 @@ class Solver:
             horizon = BUNDLE * state.dt
             spheres.update_phases(state.balls, self.model.spheres, state.time, 2 * horizon)
             self.list_candidates(horizon)
+            self._wake()
         for _ in range(BUNDLE):
             self.step()
             if after_step is not None:
@@ -150,6 +154,39 @@ class Solver:
         """Surface nodes that spheres may touch within `horizon` seconds."""
         state = self.state
         self.candidates = spheres.candidates(state.balls, self.model, state.u, state.v, horizon)
+
+    def _wake(self) -> None:
+        """Let elements near impacts take part, and others sleep, where the deck says so."""
+        radius, state = self.deck.controls.active_radius, self.state
+        if not radius or not np.isnan(state.relaxing_since):
+            return
+        lasting = 2 * radius / self.deck.material.c_s  # a shear wave's way there and back
+        places = self.deck.spheres.point[activity.live(state.balls, state.time, lasting)]  # type: ignore[union-attr]
+        self.let_take_part(activity.near(self.model, places, radius))
+
+    def _take_up(self) -> None:
+        """Who takes part, of elements, nodes and the far field's nodes, from `state.active`."""
+        self.activity = activity.of_blocks(self.model, self.state.active)
+        far, awake = self.model.far, self.activity.awake
+        self.far = boundary.Absorbers(*(part[awake[far.nodes]] for part in far))
+
+    def let_take_part(self, blocks: np.ndarray) -> None:
+        """From now on those blocks (k,) of elements take part, and the nodes of no other."""
+        state = self.state
+        if np.array_equal(blocks, state.active):
+            return
+        hourglass = []
+        for part in (activity.everywhere(self.model), blocks):
+            self.activity = activity.of_blocks(self.model, part)
+            state.force[:] = 0.0
+            self.update_forces(0.0)
+            hourglass.append(float(state.ledger.elements[:, HOURGLASS].sum()))
+        state.active, state.ledger.dormant = blocks, hourglass[0] - hourglass[1]
+        self._take_up()
+        standing = ~self.activity.awake
+        speeds = np.einsum("ij,ij->i", state.v[standing], state.v[standing])
+        state.ledger.absorbed += 0.5 * float(self.mass[standing] @ speeds)
+        state.v[standing] = 0.0
 
     def stable_step(self) -> float:
         """The next step [s] from the deformed mesh.
@@ -176,12 +213,15 @@ class Solver:
         """From tⁿ to tⁿ⁺¹: predict, correct at the boundaries and contacts, new internal forces."""
         model, state, ledger, dt = self.model, self.state, self.state.ledger, self.state.dt
         kick = 0.5 * (state.last_dt + dt)
-        motion.remember(model.far.nodes, state.v, self._before_far)
+        motion.remember(self.far.nodes, state.v, self._before_far)
         motion.remember(self.candidates.nodes, state.v, self.candidates.before)
         if len(model.loaded):
             motion.remember(model.loaded, state.v, self._before_loads)
             self._push()
-        motion.advance(model.chunks, model.spans, state.force, self.mass, state.u, state.v, kick, dt, self._kinetic)
+        part = self.activity
+        motion.advance(
+            model.chunks, part.spans, part.awake, state.force, self.mass, state.u, state.v, kick, dt, self._kinetic
+        )
         boundary.hold(model.rollers.nodes, model.rollers.projectors, state.u, state.v, dt)
         ledger.absorbed += boundary.absorb(self.far, self.mass, state.u, state.v, self._before_far, kick, dt)
         if len(model.loaded):
@@ -214,11 +254,11 @@ class Solver:
 
     def update_forces(self, dt: float) -> None:
         """Internal forces of the present displacements into state.force, the material advanced by dt."""
-        model, state = self.model, self.state
+        model, state, part = self.model, self.state, self.activity
         fields = (state.deviator, state.peeq, state.temperature, state.backstress)
         add_internal_forces(
-            model.ranges, model.blocks, model.elements, model.undeformed, model.X, state.u, state.v, fields,
-            state.force, state.ledger.elements, model.X.dtype.type(dt), model.law, self.viscosity,
+            part.ranges, part.blocks, model.blocks, model.elements, model.undeformed, model.X, state.u, state.v,
+            fields, state.force, state.ledger.elements, model.X.dtype.type(dt), model.law, self.viscosity,
             model.rate, model.thermal, model.kinematic,
         )  # fmt: skip
 

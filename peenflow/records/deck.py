@@ -96,6 +96,7 @@ class Controls:
     title: Annotated[str, of("", "the case's title")]
     end_time: Annotated[float, of("s", "end of the impacts; relaxation follows")]
     time_step_share: Annotated[float, of("1", "share of the stable step")]
+    active_radius: Annotated[float, of("m", "around impacts, within which elements take part; 0: all do")] = 0.0
     precision: Annotated[str, of("", "of nodal and element fields: float64 or float32; sums are float64")] = "float64"
     hourglass_stiffness: Annotated[float, of("1", "Flanagan–Belytschko stiffness coefficient")] = 0.05
     bulk_viscosity_linear: Annotated[float, of("1", "linear bulk viscosity")] = 0.06

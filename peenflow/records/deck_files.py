@@ -22,7 +22,7 @@ from peenflow.records.target import Patch
 CONTROLS, ARRAYS = "deck.toml", "deck.h5"
 SHARES = ("time_step_share", "relaxation", "energy_error_limit")  # above 0, at most 1
 PRECISIONS = ("float64", "float32")
-NOT_NEGATIVE = ("hourglass_stiffness", "bulk_viscosity_linear", "bulk_viscosity_quadratic")
+NOT_NEGATIVE = ("active_radius", "hourglass_stiffness", "bulk_viscosity_linear", "bulk_viscosity_quadratic")
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ def ball(velocity, mass=1e-7, radius=1e-4, height=0.0):
     centre = np.array([[0.0, 0.0, radius + height]])
     return Balls(
         np.array([radius]), np.array([mass]), eye.copy(), eye.copy(), centre,
-        np.array([velocity], float), np.zeros((1, 3)), np.array([LIVE]),
+        np.array([velocity], float), np.zeros((1, 3)), np.array([LIVE]), np.array([np.nan]),
     )  # fmt: skip
 
 
