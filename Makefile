@@ -1,4 +1,4 @@
-# make setup | demo | test | test-long | verification | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
+# make setup | demo | test | test-long | verification | study | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
 SHELL := /bin/bash
 .DELETE_ON_ERROR:
 VENV := .venv
@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 RESULTS := cases/bolt-hole/results
 LADDER := build/verification
 
-.PHONY: setup demo test test-long verification bench-tests lint clean
+.PHONY: setup demo test test-long verification study bench-tests lint clean
 
 setup: $(READY)
 
@@ -32,6 +32,10 @@ verification: setup
 	rm -rf $(LADDER)
 	$(BIN)/pytest tests/verification --record $(LADDER); told=$$?; \
 	  $(BIN)/python tests/support/ladder_page.py $(LADDER) docs && exit $$told
+
+# accuracy against time: hours for all parts, of which PARTS="single-shot depth …" chooses; finished points are kept
+study: setup
+	$(BIN)/python tools/study.py $(PARTS)
 
 # how fast, not whether right: files bench_*.py, which no other target collects
 bench-tests: setup

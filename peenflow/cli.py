@@ -9,11 +9,12 @@ from typing import Annotated, NoReturn
 import typer
 
 import peenflow
-from peenflow import console, display, jobs, pipeline, starter
+from peenflow import console, display, jobs, machine, pipeline, starter
 from peenflow.bench.found import document
 from peenflow.case.directory import read_case
 from peenflow.errors import PeenflowError
 from peenflow.estimate import estimate
+from peenflow.export import Tool
 from peenflow.resolve import resolve
 from peenflow.stop import stoppable
 
@@ -92,7 +93,7 @@ def solve(
     """Run the FE stage alone, from its deck."""
     _use_cores(cores)
     folder = deck.parent if deck.suffix == ".toml" else deck
-    results = out or folder / "results"
+    results = _results(folder, out)
     with console.opened(results, display.ERRORS) as said:
         outcome = pipeline.solve_deck(folder, results, said)
     display.outcomes([outcome], results)
@@ -103,6 +104,33 @@ def status(case: CaseArgument, out: OutOption = None, settings: SetOption = None
     """Tell stage by stage what is done, stale, running or failed, and why."""
     request = _request(case, out, settings)
     display.status(pipeline.status(request.case, request.directory, request.out), request.out)
+
+
+@app.command()
+def study(
+    case: CaseArgument,
+    names: Annotated[
+        str | None, typer.Option("--knobs", help="Knobs to vary, like mesh_size,time_step or material,speed.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Directory of the study [default: CASE/study].")] = None,
+    at_once: Annotated[int | None, typer.Option("--jobs", min=1, help="Points at once [default: all cores].")] = None,
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure what each knob of [accuracy] costs in time and is worth in accuracy. Resumable."""
+    from peenflow.study import leave, survey  # matplotlib takes a second
+
+    place = out or _folder(case) / "study"
+    pipeline.confine(place, place if out else _folder(case))
+    knobs = tuple(name.strip() for name in names.split(",")) if names else None
+    request = survey.Request(case, tuple(settings or ()), knobs, place, at_once or machine.cores())
+    with console.opened(place, display.ERRORS) as said:
+        found = survey.study(request, said)
+    leave.leave(found, place)
+    if as_json:
+        display.document(survey.document(found))
+    else:
+        display.study(survey.document(found), place)
 
 
 @app.command()
@@ -132,12 +160,26 @@ def submit(  # noqa: PLR0913 (a parameter an option is typer's way)
     )
     results = request.out.absolute()
     overrides = [part for setting in settings or [] for part in ("--set", setting)]
-    again = (sys.executable, "-m", "peenflow", "run", str(case.absolute()), "--out", str(results), *overrides)
+    again = (sys.executable, "-P", "-m", "peenflow", "run", str(case.absolute()), "--out", str(results), *overrides)
     script = jobs.write(jobs.Job(request.case.title, again, results), allocation, scheduler)
     if dry_run:
         display.say(script.read_text() + f"\n# written to {script}, not submitted")
     else:
         display.say(f"{jobs.submit(script, scheduler)} ({script})")
+
+
+@app.command()
+def export(
+    case: CaseArgument,
+    tool: Annotated[Tool, typer.Option("--to", help="For which solver.")],
+    out: OutOption = None,
+    settings: SetOption = None,
+) -> None:
+    """Write the FE deck for a solver you have; the impacts press on the surface."""
+    request = _request(case, out, settings)
+    with console.opened(request.out, display.ERRORS) as said:
+        paths = pipeline.export_deck(request, tool, said)
+    display.say("\n".join(map(str, paths)))
 
 
 @app.command()
@@ -160,6 +202,7 @@ def bench(
     with open(os.devnull, "w", encoding="utf-8") as no_log:  # there is no results directory to keep one in
         said = console.Console(display.ERRORS, no_log)
         found = benchmark.measure(benchmark.QUICK if quick else benchmark.FULL, said)
+        machine.keep(found.solver)
         if as_json:
             said.note(found.formula)
             display.document(document(found))
@@ -186,6 +229,14 @@ def main() -> NoReturn:
             traceback.print_exc()
         display.error(str(error))
         sys.exit(error.exit_status)
+    except MemoryError as error:
+        if debug:
+            traceback.print_exc()
+        display.error(
+            f"This machine's memory is not enough ({error}). See what `peenflow check` predicts; a coarser "
+            "accuracy.mesh_size, a smaller target.patch or less exposure need less."
+        )
+        sys.exit(1)
     except Exception as error:
         if debug:
             traceback.print_exc()
@@ -205,7 +256,18 @@ def _request(
 
 
 def _results(case: Path, out: Path | None) -> Path:
-    return out or (case.parent if case.suffix == ".toml" else case) / "results"
+    """The results directory, with no way out of it, nor out of the case unless the command line names it.
+
+    Raises:
+        InputError: a link leads elsewhere.
+    """
+    results = out or _folder(case) / "results"
+    pipeline.confine(results, results if out else _folder(case))
+    return results
+
+
+def _folder(case: Path) -> Path:
+    return case.parent if case.suffix == ".toml" else case
 
 
 def _use_cores(count: int | None) -> None:

@@ -4,6 +4,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import datetime
+from io import TextIOWrapper
 from pathlib import Path
 from typing import TextIO
 
@@ -35,11 +36,20 @@ class Console:
             yield _Lines(self._terminal, name, total)
 
     def note(self, message: str) -> None:
-        """Say one line, here and in log.txt."""
+        """Say one line, here and in log.txt.
+
+        Raises:
+            RunError: the disk refuses.
+        """
         self._terminal.print(message, markup=False, highlight=False, soft_wrap=True)
         now = datetime.now().astimezone().isoformat(timespec="seconds")
-        self._log.write(f"{now} {message}\n")
-        self._log.flush()
+        try:
+            self._log.write(f"{now} {message}\n")
+        except OSError as error:
+            raise RunError(
+                f"{self._log.name} cannot be written: {error.strerror}. Free space, then run again: finished stages "
+                "are kept."
+            ) from error
 
 
 @contextmanager
@@ -51,7 +61,8 @@ def opened(out: Path, terminal: Terminal) -> Iterator[Console]:
     """
     try:
         out.mkdir(parents=True, exist_ok=True)
-        log = open(out / "log.txt", "a", encoding="utf-8")  # noqa: SIM115 (closed by the `with` below)
+        raw = open(out / "log.txt", "ab", buffering=0)  # noqa: SIM115 (closed by the `with` below)
+        log = TextIOWrapper(raw, encoding="utf-8", write_through=True)  # keeps nothing that closing could lose
     except OSError as error:
         raise RunError(
             f"{out / 'log.txt'} cannot be written: {error.strerror}. Make {out} writable or choose another with --out."

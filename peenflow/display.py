@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from peenflow.bench.found import Found
@@ -15,6 +15,7 @@ from peenflow.pipeline import Outcome, StageStatus
 
 ERRORS = Console(stderr=True)
 OUTPUT = Console()
+WIDE = 120  # characters of a wide table's line in a file
 
 # Headline figures: place in summary.json, name, unit, factor
 _HEADLINES = (
@@ -48,17 +49,30 @@ def document(content: Mapping[str, Any]) -> None:
 def check(found: Mapping[str, Any]) -> None:
     """What `check` prints: effects, sizes, costs, warnings (`found` as from `peenflow.estimate.estimate`)."""
     say(found["title"])
-    effects = _table("effect", "state", "estimate", "threshold", "why")
+    effects = _table("effect", "state", "estimate", "why, and what it costs")
     for name, made in found["effects"].items():
-        _row(effects, name, made["state"], _number(made["estimate"], 2), _number(made["threshold"], 2), made["why"])
+        _row(effects, name, made["state"], _number(made["estimate"], 2), f"{made['why']}. Cost: {made['cost']}")
     OUTPUT.print(effects)
+    thresholds = {_number(made["threshold"], 2) for made in found["effects"].values()}
+    say(f"An effect left to auto is on where its estimate, a share of the result, exceeds {', '.join(thresholds)}.")
+    limits = _table("not modelled", "estimate", "why")
+    for name, limit in found["not_modelled"].items():
+        _row(limits, name, _number(limit["estimate"], 2), limit["why"])
+    OUTPUT.print(limits)
+    if found["accuracy"]["chosen"]:
+        say(found["accuracy"]["chosen"])
     for part in ("fe", "dem"):
-        say(f"{part}: " + ", ".join(f"{name} {_number(value, 4)}" for name, value in found[part].items()))
+        figures = {name: value for name, value in found[part].items() if name != "engine_why"}
+        say(f"{part}: " + ", ".join(f"{name} {_number(value, 4)}" for name, value in figures.items()))
+    if found["dem"]["engine"]:
+        say(f"dem engine: {found['dem']['engine_why']}")
     stages = _table("stage", "predicted time, s", "predicted memory, MB")
     for stage in found["stages"]:
         memory = _number(stage["predicted_memory_B"] / 1e6, 3)
         _row(stages, stage["stage"], _number(stage["predicted_wall_s"], 3), memory)
     OUTPUT.print(stages)
+    if not found["machine"]["measured"]:
+        say("times by another machine's speed: `peenflow run` or `peenflow bench` measures this one's")
     for warning in found["warnings"]:
         say(f"Warning: {warning}")
 
@@ -114,8 +128,46 @@ def bench(found: Found) -> None:
         say(f"dem: {found.dem.steps_per_s:.4g} steps/s with {found.dem.shots} shots")
 
 
+_ERRORS = {  # columns of a study's table
+    "error_profile": "profile",
+    "error_minimum": "least RCS",
+    "error_depth_of_minimum": "its depth",
+    "error_zero_crossing": "zero at",
+    "error_cor": "CoR",
+    "error_force": "force",
+}
+
+
+def study(found: Mapping[str, Any], out: Path) -> None:
+    """What a study measured (`found` as from `peenflow.study.survey.document`)."""
+    say(f"{found['title']}: differences from the reference in %, residual stress by depth (rms over its least) first")
+    table = _table("", "knob", "value", *_ERRORS.values(), "CPU s", "wall s")
+    for row in found["rows"]:
+        differences = ("" if row[name] is None else f"{100 * row[name]:.2g}" for name in _ERRORS)
+        knob = row["knob"] + (" (against base)" if row["kind"] == "unsure" else "")
+        mark = "★" if row["pareto"] else ""
+        _row(table, mark, knob, row["value"], *differences, f"{row['cpu_s']:.3g}", f"{row['wall_s']:.3g}")
+    (OUTPUT if OUTPUT.is_terminal else Console(width=WIDE)).print(table)
+    say("★ nothing is both quicker and more exact. CPU time: all stages but the report.")
+    for name, mesh in found["mesh"].items():
+        if mesh["order"] is not None:
+            told = f"{mesh['extrapolated']:.5g} at mesh size zero, order {mesh['order']:.2g}"
+            say(f"{name}: {told}, GCI of the finest mesh {100 * mesh['gci']:.2g} %")
+    for name, band in found["band"].items():
+        width = f"{band['low']:.4g} … {band['high']:.4g} ({100 * band['share']:.2g} %)"
+        say(f"{name}: what is not known well moves {band['base']:.4g} to {width}; "
+            f"numerical error {100 * band['numerical_error']:.2g} %")  # fmt: skip
+    for name, why in found["left_out"].items():
+        say(f"left out: {name}: {why}")
+    for advice in found["recommendations"]:
+        say(advice["text"])
+    say(f"Results: {out}")
+
+
 def _table(*columns: str) -> Table:
-    return Table(*columns, box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    """Only the last column is broken into lines."""
+    whole = [Column(name, no_wrap=True) for name in columns[:-1]]
+    return Table(*whole, columns[-1], box=None, pad_edge=False, padding=(0, 2, 0, 0))
 
 
 def _row(table: Table, *cells: str) -> None:

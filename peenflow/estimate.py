@@ -1,40 +1,58 @@
 """What a case will cost before it runs: sizes, time steps, and time and memory by stage, from closed forms."""
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from peenflow import machine
 from peenflow.calibrate import unit_cell
+from peenflow.calibrate.stage import DENTS_AT_REST
+from peenflow.case.accuracy import CELL_WIDTH
+from peenflow.case.contacts_csv import read_contacts
 from peenflow.case.impacts_csv import read_impacts
 from peenflow.dem.engine import FLUSH, rayleigh_step
+from peenflow.errors import InputError
 from peenflow.geometry.grading import layers
 from peenflow.loads.stage import AFTER_LAST, GROUP_INTERVAL
 from peenflow.mesh import grid
 from peenflow.mesh import stage as mesh_stage
 from peenflow.records.upstream import Upstream
+from peenflow.repeats import CROWDING, HITS_PER_SHOT
 from peenflow.scene import Scene, Skip
 
-# Rates of a machine with two cores: the solver's and LIGGGHTS' as measured in the bolt hole's scene, the others
-# rounded up. `run` sets what they predict against what it took.
-FE_UPDATES = 12e6  # element updates a second on two threads
+# The solver's speed is the machine's own (`peenflow.machine`), measured once by `run`; all else scales with it from the
+# machine on which it was measured. `run` sets what is predicted against what it took.
 FE_BYTES = 700.0  # an element's share of memory in the solver
-DEM_STEP = 1.5e-5  # s a time step of LIGGGHTS with nothing in flight
+DEM_STEP = 6e-6  # s a time step of LIGGGHTS with nothing in flight
 DEM_SHOT = {True: 4e-7, False: 1.5e-7}  # s a time step and shot, beside a moving rod and without one
-START = 2.0  # s to import, compile or start what a stage needs, its code cached
-PICTURES = 12.0  # s for a report's pictures
+EVENT = 1e-4  # s a shot and hit of the event-driven engine
+START = 1.5  # s to start Python and import what a run needs, its kernels compiled
+STAGE = 0.05  # s of a stage that has little to do
+SOLVER = 0.7  # s to load kernels before the first step
+PICTURES = {True: 2.9, False: 0.6}  # s for a report's pictures: of a patch, one of them in space; of a single shot
 BASE_MEMORY = 3e8  # B of a Python process with its libraries
 CONTACT_BYTES = 300.0  # a contact row in memory
 
+SPEED_UP = {"float64": 1.0, "float32": 1.35}  # of element updates, by precision
 CALIBRATION_RUNS = 6  # three speeds, and three more hits at the fastest
-CALIBRATED_TIME = 6.0  # contact times a run, relaxation included
+HIT_TIME = 2.0  # contact times from first touch to the end of a hit (`calibrate.hit`)
+DAMPED = 0.942  # of the stable step, which linear bulk viscosity takes 6 % of
+SHORTENED = 1.1  # steps over those of the undeformed mesh: dents flatten elements
 
-HITS_PER_SHOT = 3.5  # dents of one shot in a hole: ricochets, measured in the deflector's scene
-CROWDING = 5.0  # of the densest patch over the mean of the hole's wall, there
+# Steps of relaxation at a residual of 0.2 %, and their growth as it falls, fitted to single shots of 15,000 to 176,000
+# elements at 0.05 to 0.5 % and to patches of 5,000 to 17,000 at 0.05 and 0.2 %.
+REST, CREPT = 0.002, 0.8  # residual and share of the stable step
+CELL_REST, CELL_CREEP = 0.042, 0.69  # steps an element of the cell; exponent
+PATCH_REST, PATCH_CREEP = 22.0, 0.3  # steps for each of its elements in a row; exponent
+
 ROWS_PER_HIT = 10.0  # contact rows of one hit at 20 % of the Rayleigh step, every second written
-RELAXED_DEPTHS = 10.0  # times a shear wave crosses the patch's depth while it relaxes
 MEETING_GROUPS = 1.2  # groups by impacts in the circle of the group distance, for points drawn at random
 LEAST_SHARING = 0.7  # groups an impact where none can share
 COARSEST = 2.0  # elements in a dent radius, below which a dent is not resolved
+MOST_IN_A_ROW = 10_000  # elements: their square is beyond any memory
 LARGEST_DEM_STEP = 0.3  # of the Rayleigh step: beyond, restitution drifts (3 % at 0.53)
 
 
@@ -63,11 +81,20 @@ def estimate(scene: Scene) -> dict[str, Any]:
     return {
         "title": scene.case.title,
         "effects": {
-            name: {"state": made.state, "estimate": made.estimate, "threshold": made.threshold, "why": made.why}
+            name: {
+                "state": made.state,
+                "estimate": made.estimate,
+                "threshold": made.threshold,
+                "why": made.why,
+                "cost": made.cost,
+            }
             for name, made in scene.effects.items()
         },
+        "not_modelled": {
+            name: {"estimate": limit.estimate, "why": limit.why} for name, limit in scene.not_modelled.items()
+        },
         "stages": [
-            {"stage": name, "predicted_wall_s": round(wall, 1), "predicted_memory_B": round(memory)}
+            {"stage": name, "predicted_wall_s": round(wall, 2), "predicted_memory_B": round(memory)}
             for name, (wall, memory) in stages.items()
         ],
         "fe": {
@@ -82,9 +109,22 @@ def estimate(scene: Scene) -> dict[str, Any]:
             "time_step_s": scene.knobs.dem_time_step * rayleigh_step(scene.shot),
             "shots": round(sizes.shots),
             "steps": round(sizes.dem_steps),
+            "engine": scene.engine.name if scene.engine else None,
+            "engine_why": scene.engine.why if scene.engine else None,
         },
+        "accuracy": {"chosen": scene.chosen, "knobs": dataclasses.asdict(scene.knobs)},
+        "machine": {"measured": machine.known().measured, "threads": machine.threads()},
         "warnings": _warnings(scene, sizes),
     }
+
+
+def predicted_wall(scene: Scene) -> float:
+    """Of a whole run with nothing done before [s], on this machine.
+
+    Raises:
+        InputError: the table of impacts cannot be read.
+    """
+    return START + sum(wall for wall, _ in _stages(scene, measure(scene)).values())
 
 
 def measure(scene: Scene) -> Sizes:
@@ -98,9 +138,9 @@ def measure(scene: Scene) -> Sizes:
     impacts = _impacts(scene)
     groups = _groups(scene, impacts)
     h = scene.knobs.mesh_size if elements else scene.knobs.calibration_mesh_size
-    step = scene.knobs.time_step * h / scene.material.c_p
+    step = _time_step(scene, h)
     impacting = (GROUP_INTERVAL * max(0.0, groups - 1) + AFTER_LAST) * scene.contact_time
-    relaxing = RELAXED_DEPTHS * scene.knobs.depth / scene.material.c_s
+    relaxing = PATCH_REST * elements ** (1 / 3) * (REST / scene.knobs.relaxation) ** PATCH_CREEP
     duration = scene.case.exposure.duration if scene.case.exposure else 0.0
     flown = (duration + FLUSH) if scene.case.nozzle else 0.0
     return Sizes(
@@ -109,10 +149,25 @@ def measure(scene: Scene) -> Sizes:
         shots=_shots(scene),
         impacts=impacts,
         groups=groups,
-        fe_steps=(impacting + relaxing) / step if elements else 0.0,
+        fe_steps=SHORTENED * impacting / step + relaxing if elements else _cell_steps(scene, cell),
         dem_steps=flown / (scene.knobs.dem_time_step * rayleigh_step(scene.shot)),
         cell_elements=cell,
     )
+
+
+def _time_step(scene: Scene, mesh_size: float) -> float:
+    """Of a mesh of `mesh_size` [m], before dents deform it [s]."""
+    return DAMPED * scene.knobs.time_step * mesh_size / scene.material.c_p
+
+
+def _cell_steps(scene: Scene, elements: int) -> float:
+    """Steps of all hits that are calibrated."""
+    single = scene.case.single_shot
+    hits = single.hits if single else CALIBRATION_RUNS
+    rest = scene.knobs.relaxation if single else max(scene.knobs.relaxation, DENTS_AT_REST)
+    hitting = SHORTENED * HIT_TIME * scene.contact_time / _time_step(scene, scene.knobs.calibration_mesh_size)
+    creeping = (CREPT / scene.knobs.time_step) ** 2  # the metal creeps by time, not by steps
+    return hits * (hitting + CELL_REST * elements * creeping * (REST / rest) ** CELL_CREEP)
 
 
 def _calibrates(scene: Scene) -> bool:
@@ -124,6 +179,7 @@ def _elements(scene: Scene) -> int:
     if isinstance(inputs, Skip):
         return 0
     h = inputs.mesh_size
+    _refuse_endless(h, *inputs.size, inputs.depth)
     if inputs.fine_half is None:
         lines = [grid.uniform_lines(size, h) for size in inputs.size]
     else:
@@ -132,28 +188,40 @@ def _elements(scene: Scene) -> int:
     return (len(lines[0]) - 1) * (len(lines[1]) - 1) * deep
 
 
+def _refuse_endless(h: float, *sizes: float) -> None:
+    """Before grids are laid out that no memory holds."""
+    if max(sizes) > MOST_IN_A_ROW * h:
+        raise InputError(
+            f"Elements of {h * 1e6:.3g} µm would cut {max(sizes) * 1e3:.3g} mm into more than {MOST_IN_A_ROW}: "
+            "make accuracy.mesh_size larger, or target.patch and accuracy.depth smaller."
+        )
+
+
 def _cell_elements(scene: Scene) -> int:
-    h, width = scene.knobs.calibration_mesh_size, unit_cell.WIDTH * scene.shot.diameter / 2
+    h, width = scene.knobs.calibration_mesh_size, CELL_WIDTH * scene.shot.diameter / 2
+    _refuse_endless(h, width)
     along: int = len(layers(h, unit_cell.FINE * scene.dent_radius, width, unit_cell.GROWTH))
     return along**3
 
 
 def _shots(scene: Scene) -> float:
     case = scene.case
-    rate = sum(scene.shot.per_second(nozzle) for nozzle in case.nozzle)
+    rate = sum(scene.thrown.per_second(nozzle) for nozzle in case.nozzle)
     return rate * case.exposure.duration * case.exposure.shards if case.exposure else 0.0
 
 
 def _impacts(scene: Scene) -> float:
-    """Impacts on the patch: those of the table, or the jet's share that the patch covers."""
+    """Impacts on the patch: those of the table (of contacts: one a shot), or the jet's share that the patch covers."""
     case, patch = scene.case, scene.case.target.patch
     if case.impacts:
         return float(len(read_impacts(scene.directory / case.impacts.file, scene.surface).t))
+    if case.contacts:
+        table = read_contacts(scene.directory / case.contacts.file, case.contacts)
+        return float(len(np.unique(table.shot[table.on_target])))
     geometry = case.target.geometry
     if patch is None or geometry is None or not case.nozzle:
         return 0.0
-    across = patch.arc if geometry.kind == "bolt-hole" else patch.width
-    area = patch.length * (across or patch.length)
+    area = math.prod(patch.size)
     if geometry.kind == "bolt-hole":
         wall = math.pi * geometry.diameter * geometry.length
         return _shots(scene) * HITS_PER_SHOT * min(1.0, CROWDING * area / wall)
@@ -165,7 +233,7 @@ def _groups(scene: Scene, impacts: float) -> float:
     patch, distance = scene.case.target.patch, scene.knobs.group_distance
     if patch is None or distance is None:
         return impacts
-    area = patch.length * (patch.arc or patch.width or patch.length)
+    area = math.prod(patch.size)
     near = math.pi * (distance * scene.shot.diameter) ** 2 / area
     return max(min(impacts, 1.0), impacts * min(LEAST_SHARING, MEETING_GROUPS * near))
 
@@ -173,33 +241,43 @@ def _groups(scene: Scene, impacts: float) -> float:
 def _stages(scene: Scene, sizes: Sizes) -> dict[str, tuple[float, float]]:
     """Wall time [s] and memory [B] of the stages that have work, in order."""
     costs: dict[str, tuple[float, float]] = {}
+    own = machine.known()
+    rate, slow = SPEED_UP[scene.knobs.precision] * own.rate(machine.threads()), own.slowness
     patch = sizes.elements * FE_BYTES
     if sizes.elements:
-        costs["mesh"] = (START + 1e-5 * sizes.elements, BASE_MEMORY + patch)
+        costs["mesh"] = (slow * (STAGE + 1e-5 * sizes.elements), BASE_MEMORY + patch)
     if sizes.cell_elements:
-        runs = scene.case.single_shot.hits if scene.case.single_shot else CALIBRATION_RUNS
-        step = scene.knobs.time_step * scene.knobs.calibration_mesh_size / scene.material.c_p
-        updates = sizes.cell_elements * runs * CALIBRATED_TIME * scene.contact_time / step
-        costs["calibrate"] = (START + updates / FE_UPDATES, BASE_MEMORY + sizes.cell_elements * FE_BYTES)
+        taken = slow * SOLVER + sizes.cell_elements * _cell_steps(scene, sizes.cell_elements) / rate
+        costs["calibrate"] = (taken, BASE_MEMORY + sizes.cell_elements * FE_BYTES)
     rows = sizes.shots * HITS_PER_SHOT * ROWS_PER_HIT
     if sizes.dem_steps:
-        moving = scene.effects["deflector_motion"].on
-        shards = scene.case.exposure.shards if scene.case.exposure else 1
-        a_step = DEM_STEP * shards + DEM_SHOT[moving] * sizes.shots
-        costs["dem"] = (START + sizes.dem_steps * a_step, BASE_MEMORY + rows * CONTACT_BYTES)
+        costs["dem"] = (slow * _stream(scene, sizes), BASE_MEMORY + rows * CONTACT_BYTES)
     if sizes.elements:
-        costs["translate"] = (START + 1e-5 * (sizes.elements + rows), BASE_MEMORY + patch + rows * CONTACT_BYTES)
-        costs["solve"] = (START + sizes.elements * sizes.fe_steps / FE_UPDATES, BASE_MEMORY + patch)
-    costs["report"] = (PICTURES + 2e-5 * sizes.elements, 2 * BASE_MEMORY + patch)
+        sorting = slow * (STAGE + 1e-6 * (sizes.elements + rows))
+        costs["translate"] = (sorting, BASE_MEMORY + patch + rows * CONTACT_BYTES)
+        costs["solve"] = (slow * SOLVER + sizes.elements * sizes.fe_steps / rate, BASE_MEMORY + patch)
+    drawing = PICTURES[bool(sizes.elements)] + 1e-5 * sizes.elements
+    costs["report"] = (slow * drawing, 2 * BASE_MEMORY + patch)
     return costs
 
 
+def _stream(scene: Scene, sizes: Sizes) -> float:
+    """Wall time of the stream [s], on the machine of the stated rates."""
+    if scene.engine is not None and scene.engine.name == "event-driven":
+        return SOLVER + EVENT * sizes.shots * HITS_PER_SHOT
+    moving = scene.effects["deflector_motion"].on
+    shards = scene.case.exposure.shards if scene.case.exposure else 1
+    return STAGE + sizes.dem_steps * (DEM_STEP * shards + DEM_SHOT[moving] * sizes.shots)
+
+
 def _warnings(scene: Scene, sizes: Sizes) -> list[str]:
-    knobs, found = scene.knobs, []
-    if scene.case.nozzle and knobs.dem_time_step > LARGEST_DEM_STEP:
+    knobs, engine, found = scene.knobs, scene.engine, []
+    if engine is not None and engine.name == "event-driven" and engine.dense:
+        found.append(f'dem.engine is "event-driven", but {engine.why.partition("; ")[2]}: use "auto" or "liggghts".')
+    if engine is not None and knobs.dem_time_step > LARGEST_DEM_STEP:
         found.append(
             f"accuracy.dem_time_step is {knobs.dem_time_step:g} of the Rayleigh step: above {LARGEST_DEM_STEP:g} "
-            "shots rebound with another coefficient of restitution than asked; use 0.2 or less."
+            "LIGGGHTS' shots rebound with another coefficient of restitution than asked; use 0.2 or less."
         )
     h = knobs.mesh_size if sizes.elements else knobs.calibration_mesh_size
     if h > scene.dent_radius / COARSEST * (1 + 1e-9):

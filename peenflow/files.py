@@ -4,8 +4,24 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TextIO
 
 from peenflow.errors import RunError
+
+LONGEST = 1 << 20  # characters of a line
+PARTIAL = ".*.part"  # pattern of files being written
+
+
+def lines(handle: TextIO) -> Iterator[str]:
+    """The lines of a text file, of which a binary one's may have no end.
+
+    Raises:
+        ValueError: a line is too long.
+    """
+    while line := handle.readline(LONGEST):
+        if len(line) == LONGEST:
+            raise ValueError(f"it has a line of {LONGEST} characters or more")
+        yield line
 
 
 @contextmanager

@@ -7,17 +7,22 @@ from pathlib import Path
 
 import numpy as np
 
-from peenflow import dent
-from peenflow.case.accuracy import MARGIN, PRESETS, Dents, knobs, patch_depth
+from peenflow import dent, surfaces
+from peenflow.case.accuracy import CELL_WIDTH, MARGIN, PRESETS, Dents, knobs, patch_depth
+from peenflow.case.contacts_csv import ContactTable, read_contacts
 from peenflow.case.impacts_csv import read_impacts
 from peenflow.case.model import BoltHoleGeometry, Case, Deflector, Nozzle, PlateGeometry
-from peenflow.effects import Situation, decide
+from peenflow.effects import Situation, choose_engine, decide, not_modelled
 from peenflow.errors import InputError
-from peenflow.geometry import BoltHole, Plate, Surface
+from peenflow.geometry import CadSurface, Surface
 from peenflow.materials import library, shots
 from peenflow.records.material import Material
-from peenflow.scene import Decision, Scene
+from peenflow.repeats import dents_per_place, repeated_share
+from peenflow.scene import Decision, Scene, ShotProperties, Thrown
+from peenflow.study import choice
 
+HARD = 0.5  # share of the fastest approach; how a softer hit comes has no say
+RESOLVED = 0.95  # share of the shots whose dents the mesh resolves
 GRAZING = 1e-9  # normal over whole speed, below which a hit is tangential
 
 
@@ -27,6 +32,7 @@ class Arrival:
 
     speed: float  # of the fastest
     diameters: tuple[float, float]  # the smallest and the largest shot's
+    given: int = 0  # impacts in the case's table; 0: it has none
     flight: float | None = None  # m, from the nozzle to what they meet first, the longest; None: nothing flies
     slant: float | None = None  # tangential over normal speed, the most oblique hit's; None: the nozzles tell
 
@@ -41,29 +47,43 @@ def resolve(case: Case, directory: Path) -> Scene:
         directory: where the case lies.
 
     Raises:
-        InputError: the table of impacts cannot be read or does not fit the target; the patch is too small for a dent.
+        InputError: the table of impacts cannot be read or does not fit the target; the patch is too small for a dent;
+            no setting is known that is as exact as accuracy.target, or as quick as accuracy.budget, asks for.
     """
-    surface = _surface(case)
+    case, chosen = choice.settle(case, directory, _resolved)
+    return dataclasses.replace(_resolved(case, directory), chosen=chosen)
+
+
+def _resolved(case: Case, directory: Path) -> Scene:
+    """The scene of a case whose accuracy is given by a preset and knobs."""
+    surface = surfaces.of(case, directory)
     target = case.target
-    material = library.material(target.material, target.constants, target.johnson_cook, target.temperature)
-    nominal = shots.properties(case.shot)
-    arrival = _arrival(case, directory, surface, nominal.diameter)
-    smallest, shot = (dataclasses.replace(nominal, diameter=diameter) for diameter in arrival.diameters)
+    material = library.material(
+        target.material, target.constants, target.johnson_cook, target.temperature, target.kinematic_hardening
+    )
+    thrown = shots.thrown(case.shot, case.shot.size_spread if case.nozzle else None)
+    arrival = _arrival(case, directory, surface, thrown.shot.diameter)
+    _, shot = _extremes(thrown, arrival)
     predicted = dent.predict(arrival.speed, shot, material)
     restitution = case.dem.restitution if isinstance(case.dem.restitution, float) else predicted.restitution
-    slant = arrival.slant
+    slant = _steepest(case, surface, restitution) if arrival.slant is None else arrival.slant
     situation = Situation(
         case=case,
         shot=shot,
+        thrown=thrown,
         material=material,
         dent=predicted,
         restitution=restitution,
-        depth=patch_depth(case, shot) if surface is not None else None,
+        depth=patch_depth(case, shot) if surface is not None else CELL_WIDTH * shot.diameter / 2,
         flight=arrival.flight,
-        slant=max(_slant(case, nozzle, restitution) for nozzle in case.nozzle) if slant is None else slant,
+        slant=slant,
+        normal_speed=_normal_speed(case.deflector, arrival.speed, slant, restitution),
+        repeats=_repeats(case, thrown, arrival, predicted.radius),
     )
     effects = decide(situation, PRESETS[case.accuracy.preset].tolerance)
     solved = _with_effects(material, effects)
+    thrown = thrown if effects["size_spread"].on else shots.thrown(case.shot, None)
+    smallest, shot = _extremes(thrown, arrival)
     dents = Dents(*(dent.predict(arrival.speed, size, solved) for size in (shot, smallest)))
     _check_room(case, dents.largest.radius)
     return Scene(
@@ -71,22 +91,16 @@ def resolve(case: Case, directory: Path) -> Scene:
         directory=directory,
         surface=surface,
         shot=shot,
+        thrown=thrown,
         material=solved,
         knobs=knobs(case, shot, solved, dents, effects["far_field"].on),
         effects=effects,
+        not_modelled=not_modelled(situation, shots.shot_material(case.shot.material, case.shot.constants).yield_stress),
         speed=arrival.speed,
         dent_radius=dents.largest.radius,
         contact_time=dents.largest.contact_time,
+        engine=choose_engine(situation),
     )
-
-
-def _surface(case: Case) -> Surface | None:
-    geometry = case.target.geometry
-    if case.single_shot or geometry is None:
-        return None
-    if isinstance(geometry, BoltHoleGeometry):
-        return BoltHole(radius=geometry.diameter / 2, length=geometry.length)
-    return Plate(geometry.thickness)
 
 
 def _with_effects(material: Material, effects: dict[str, Decision]) -> Material:
@@ -94,7 +108,27 @@ def _with_effects(material: Material, effects: dict[str, Decision]) -> Material:
         material,
         rate=material.rate if effects["rate_hardening"].on else None,
         thermal=material.thermal if effects["thermal_softening"].on else None,
+        kinematic=material.kinematic if effects["kinematic_hardening"].on else None,
     )
+
+
+def _extremes(thrown: Thrown, arrival: Arrival) -> tuple[ShotProperties, ShotProperties]:
+    """The smallest shot whose dents count, and the largest.
+
+    In a stream whose sizes scatter, few are so small that the mesh need not resolve their dents: `RESOLVED` of the
+    shots are at least as large as the smallest here.
+    """
+    small, large = arrival.diameters
+    if len(thrown.diameters) > 1:
+        larger = np.cumsum(thrown.shares[::-1])[::-1]  # share of the shots that are at least as large
+        small, large = float(thrown.diameters[larger >= RESOLVED][-1]), float(thrown.diameters[-1])
+    return dataclasses.replace(thrown.shot, diameter=small), dataclasses.replace(thrown.shot, diameter=large)
+
+
+def _repeats(case: Case, thrown: Thrown, arrival: Arrival, dent_radius: float) -> float:
+    exposure = case.exposure
+    count = sum(map(thrown.per_second, case.nozzle)) * exposure.duration * exposure.shards if exposure else 0.0
+    return repeated_share(case, dents_per_place(case, count, arrival.given, dent_radius, arrival.flight or 0.0))
 
 
 def _check_room(case: Case, dent_radius: float) -> None:
@@ -126,12 +160,58 @@ def _arrival(case: Case, directory: Path, surface: Surface | None, diameter: flo
         speed = np.linalg.norm(table.velocity, axis=1)
         normal = -np.einsum("ij,ij->i", table.velocity, surface.normals(table.point))
         given = one if table.diameter is None else (float(table.diameter.min()), float(table.diameter.max()))
-        return Arrival(float(speed.max()), given, slant=float(np.max(np.sqrt(speed**2 - normal**2) / normal)))
+        slant = float(np.max(np.sqrt(speed**2 - normal**2) / normal))
+        return Arrival(float(speed.max()), given, len(speed), slant=slant)
+    if case.contacts and surface is not None:
+        return _given_arrival(read_contacts(directory / case.contacts.file, case.contacts), surface, one)
     return Arrival(
         speed=max(nozzle.speed for nozzle in case.nozzle),
         diameters=one,
-        flight=max(_flight(case, nozzle) for nozzle in case.nozzle),
+        flight=_longest_flight(case, surface),
     )
+
+
+def _given_arrival(table: ContactTable, surface: Surface, one: tuple[float, float]) -> Arrival:
+    """Of another tool's contacts: the fastest approach, and the slant of the most oblique of the hard ones.
+
+    Raises:
+        InputError: no row approaches the target's surface, or half of them are not on it.
+    """
+    velocity, point = table.velocity[table.on_target], table.point[table.on_target]
+    speed = np.linalg.norm(velocity, axis=1)
+    normal = -np.einsum("ij,ij->i", velocity, surface.normals(point))
+    if not (normal > 0).any():
+        raise InputError(
+            "[contacts]: in no row of the table does a shot approach the target. Check that the columns of position "
+            "and velocity are in the part's frame, and that the velocity is the shot's before the hit."
+        )
+    given = one if table.diameter is None else (float(table.diameter.min()), float(table.diameter.max()))
+    off = float(np.nanmedian(np.abs(surface.height(point))))
+    if off > given[1]:
+        raise InputError(
+            f"[contacts]: half of the contacts on the target lie more than {off * 1e3:.3g} mm off its surface. Check "
+            "that x, y and z are in the part's frame, and their units: columns.x = \"header [mm]\"."
+        )
+    hard = normal >= HARD * normal.max()
+    slant = np.sqrt(speed[hard] ** 2 - normal[hard] ** 2) / normal[hard]
+    count = len(np.unique(table.shot[table.on_target]))
+    return Arrival(speed=float(speed[hard].max()), diameters=given, given=count, slant=float(slant.max()))
+
+
+def _longest_flight(case: Case, surface: Surface | None) -> float:
+    if isinstance(surface, CadSurface):
+        return max(surfaces.jet(surface, index, nozzle)[0] for index, nozzle in enumerate(case.nozzle))
+    return max(_flight(case, nozzle) for nozzle in case.nozzle)
+
+
+def _steepest(case: Case, surface: Surface | None, restitution: float) -> float:
+    """Tangential over normal speed of the nozzles' most oblique hits."""
+    if isinstance(surface, CadSurface):
+        angles = (surfaces.jet(surface, index, nozzle)[1] for index, nozzle in enumerate(case.nozzle))
+    else:
+        angles = (_angle(case, nozzle, restitution) for nozzle in case.nozzle)
+    widened = (angle + nozzle.cone / 2 for angle, nozzle in zip(angles, case.nozzle, strict=True))
+    return math.tan(min(max(widened), math.pi / 2 - GRAZING))
 
 
 def _flight(case: Case, nozzle: Nozzle) -> float:
@@ -141,19 +221,18 @@ def _flight(case: Case, nozzle: Nozzle) -> float:
     if case.deflector:
         travel = case.deflector.travel
         return abs(nozzle.position[2] - (travel.start + travel.to) / 2)
-    length = case.target.geometry.length if case.target.geometry else 0.0
+    hole = case.target.geometry
+    length = hole.length if isinstance(hole, BoltHoleGeometry) else 0.0
     return max(abs(nozzle.position[2]), abs(nozzle.position[2] - length))
 
 
-def _slant(case: Case, nozzle: Nozzle, restitution: float) -> float:
-    """Tangential over normal speed of a nozzle's hits, at the edge of its cone that is farthest from the normal."""
+def _angle(case: Case, nozzle: Nozzle, restitution: float) -> float:
+    """From the normal of a plate or a hole's wall [rad], of what comes along the nozzle's axis."""
     if isinstance(case.target.geometry, PlateGeometry):
-        angle = math.acos(min(1.0, -_unit(nozzle)[2]))
-    elif case.deflector:
-        angle = _deflected(case.deflector, restitution)
-    else:
-        angle = math.pi / 2 - math.acos(min(1.0, abs(_unit(nozzle)[2])))
-    return math.tan(min(angle + nozzle.cone / 2, math.pi / 2 - GRAZING))
+        return math.acos(min(1.0, -_unit(nozzle)[2]))
+    if case.deflector:
+        return _deflected(case.deflector, restitution)
+    return math.pi / 2 - math.acos(min(1.0, abs(_unit(nozzle)[2])))
 
 
 def _deflected(rod: Deflector, restitution: float) -> float:
@@ -166,6 +245,17 @@ def _deflected(rod: Deflector, restitution: float) -> float:
     radial = along * math.sin(rod.angle) + away * math.cos(rod.angle)
     axial = along * math.cos(rod.angle) - away * math.sin(rod.angle)
     return math.atan2(abs(axial), radial)
+
+
+def _normal_speed(rod: Deflector | None, speed: float, slant: float, restitution: float) -> float:
+    """Of the first hits on the target [m/s]; shots that a rod turns stick to its face and roll off.
+
+    A solid sphere that sticks keeps 5/7 of its tangential speed (Walton's hard sphere).
+    """
+    if rod is None:
+        return speed / math.hypot(1.0, slant)
+    along, away = 5 / 7 * math.cos(rod.angle), restitution * math.sin(rod.angle)
+    return speed * (along * math.sin(rod.angle) + away * math.cos(rod.angle))
 
 
 def _unit(nozzle: Nozzle) -> tuple[float, float, float]:

@@ -1,9 +1,11 @@
 """A case with everything the stages need resolved: materials, surface, effects, knobs. Closed forms only."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
+
+import numpy as np
 
 from peenflow.case.model import Case, Nozzle
 from peenflow.geometry import Surface
@@ -26,8 +28,22 @@ class ShotProperties:
         """[kg]."""
         return self.density * math.pi / 6 * self.diameter**3
 
+
+@dataclass(frozen=True)
+class Thrown:
+    """The shots of a stream: of one size, or of a few that stand for how they scatter (SI)."""
+
+    shot: ShotProperties  # of mean diameter
+    diameters: np.ndarray  # (k,) m, rising
+    shares: np.ndarray  # (k,) by number, sum 1
+
+    @property
+    def mass(self) -> float:
+        """Of the mean shot [kg]: more than that of the shot of mean diameter."""
+        return self.shot.mass * float(self.shares @ (self.diameters / self.shot.diameter) ** 3)
+
     def per_second(self, nozzle: Nozzle) -> float:
-        """How many such shots the nozzle throws [1/s], from its rate or its mass rate."""
+        """How many shots the nozzle throws [1/s], from its rate or its mass rate."""
         return nozzle.rate if nozzle.rate is not None else (nozzle.mass_rate or 0.0) / self.mass
 
 
@@ -46,7 +62,10 @@ class Knobs:
     dem_time_step: float  # share of the Rayleigh step
     contact_interval: int  # DEM steps between contact rows
     group_distance: float | None  # shot diameters; None: impacts keep their own times
+    active_radius: float  # m around impacts, within which elements take part; 0: everywhere
     min_normal_speed: float  # m/s
+    hourglass: float = 0.05  # Flanagan–Belytschko stiffness coefficient
+    precision: Literal["float64", "float32"] = "float64"  # of the solver's arrays
 
 
 @dataclass(frozen=True)
@@ -62,19 +81,40 @@ class Decision:
 
 
 @dataclass(frozen=True)
+class EngineChoice:
+    """The DEM engine, decided."""
+
+    name: Literal["liggghts", "event-driven"]
+    why: str = field(metadata={"hashed": False})  # the criterion with its numbers, one line
+    dense: bool = field(metadata={"hashed": False})  # contacts overlap in time
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Something that is not modelled: the share of the result it would change (None: no closed form), and why."""
+
+    estimate: float | None
+    why: str
+
+
+@dataclass(frozen=True)
 class Scene:
     """Frozen and complete: stages select from it what they consume."""
 
     case: Case
     directory: Path  # where the case lies; files it names are relative to it
     surface: Surface | None  # None: a calibration alone
-    shot: ShotProperties  # the largest, where a table of impacts gives each its diameter
-    material: Material  # `rate` and `thermal` are None where their effect is off
+    shot: ShotProperties  # the largest, where a table of impacts gives each its diameter or sizes scatter
+    thrown: Thrown  # what nozzles throw
+    material: Material  # `rate`, `thermal` and `kinematic` are None where their effect is off
     knobs: Knobs
     effects: dict[str, Decision]
+    not_modelled: dict[str, Limit]
     speed: float  # m/s, the fastest nozzle's (or single shot's, or impact's)
     dent_radius: float  # m, predicted by the closed form for `shot` at `speed`, normal incidence
     contact_time: float  # s, likewise
+    engine: EngineChoice | None = None  # that throws the shots; None: nothing flies
+    chosen: str | None = None  # what accuracy.target or budget came to, in words; None: the case asks for neither
 
 
 @dataclass(frozen=True)

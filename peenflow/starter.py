@@ -30,10 +30,16 @@ def create(directory: Path, like: str | None = None) -> Path:
     source = _source(like)
     try:
         directory.mkdir(parents=True, exist_ok=True)
-        shutil.copytree(source, directory, dirs_exist_ok=True, ignore=shutil.ignore_patterns("results", ".*"))
+        shutil.copytree(source, directory, dirs_exist_ok=True, ignore=_left_out)
     except OSError as error:
         raise RunError(f"{directory} cannot be written: {error}. Choose another directory.") from error
     return file
+
+
+def _left_out(folder: str, names: list[str]) -> set[str]:
+    """Results, hidden files, and links: a stranger's may lead anywhere."""
+    made = {"results", "study"}
+    return {name for name in names if name in made or name.startswith(".") or Path(folder, name).is_symlink()}
 
 
 def _source(like: str | None) -> Path:

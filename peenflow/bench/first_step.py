@@ -27,7 +27,7 @@ def cold_and_cached() -> tuple[float, float]:
 def _seconds(cache: str) -> float:
     began = time.perf_counter()
     done = subprocess.run(
-        [sys.executable, "-m", "peenflow.bench.first_step"],
+        [sys.executable, "-P", "-m", "peenflow.bench.first_step"],
         env=os.environ | {"XDG_CACHE_HOME": cache},
         capture_output=True,
         text=True,

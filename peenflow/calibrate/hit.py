@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from peenflow.calibrate.unit_cell import SEPARATION, Shot, nodal_areas
+from peenflow.calibrate.unit_cell import SEPARATION, Shot
 from peenflow.fe.recorder import FORCE_WINDOW, contact_time, mean_force
 from peenflow.fe.relaxation import relax
 from peenflow.fe.solver import Solver
+from peenflow.geometry.block import nodal_areas
 from peenflow.records.calibration import SingleHit
 
 SAMPLING = 2e-9  # s, of the histories
@@ -98,7 +99,9 @@ class Rings:
 def _rings(solver: Solver, probe: PressureProbe, dent_radius: float, at: np.ndarray) -> Rings:
     """Impulses of the probe's nodes as pressure in rings one element wide, centred 12 ns means."""
     patch, rows = solver.deck.patch, np.array(probe.impulses)
-    areas = nodal_areas(patch, "surface")[np.searchsorted(patch.node_sets["surface"], probe.nodes)]
+    surface = patch.node_sets["surface"]  # in the solver's numbers, which need not rise
+    rising = np.argsort(surface)
+    areas = nodal_areas(patch, "surface")[rising[np.searchsorted(surface, probe.nodes, sorter=rising)]]
     edges_t = np.concatenate([[0.0], probe.times])
     total = np.concatenate([np.zeros((1, rows.shape[1])), np.cumsum(rows, axis=0)])
     half = 0.5 * FORCE_WINDOW

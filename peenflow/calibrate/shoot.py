@@ -10,7 +10,9 @@ from peenflow.calibrate.hit import strike
 from peenflow.calibrate.stage import Inputs
 from peenflow.calibrate.unit_cell import cell_deck, half_cell, quarter_cell
 from peenflow.fe import outcome
-from peenflow.fe.solver import Solver
+from peenflow.fe.guard import TRIES
+from peenflow.fe.ordering import in_order_of_deck
+from peenflow.fe.solver import Solver, UnstableError
 from peenflow.progress import Progress
 from peenflow.records.calibration import Calibration, SingleHit
 
@@ -26,25 +28,36 @@ def calibrate(inputs: Inputs, progress: Progress) -> Calibration:
     patch = (quarter_cell if inputs.angle == math.pi / 2 else half_cell)(inputs.shot, inputs.numerics)
     threads, predicted = numba.get_num_threads(), (inputs.numerics.dent_radius, inputs.contact_time)
 
-    def cell(speed: float) -> Solver:
+    def struck(speed: float, hit: int, earlier: Solver | None) -> tuple[Solver, SingleHit]:
+        """One hit, begun again with smaller steps where the solution goes wrong."""
         velocity = -speed * np.array([math.cos(inputs.angle), 0.0, math.sin(inputs.angle)])
-        return Solver(cell_deck(patch, inputs.shot, velocity, inputs.material, inputs.numerics), threads)
+        deck = cell_deck(patch, inputs.shot, velocity, inputs.material, inputs.numerics)
+        for retries in range(TRIES + 1):
+            solver = Solver(deck, threads)
+            solver.state.retries = retries
+            if earlier is not None:
+                solver.take_over(earlier)
+            try:
+                return solver, strike(solver, inputs.shot, hit, predicted)
+            except UnstableError as trouble:
+                last = trouble
+                progress.note(f"{trouble.short} Beginning this hit again with smaller steps.")
+        raise last
 
     began = time.perf_counter()
     solvers: list[Solver] = []
     with progress.task("calibrate", len(inputs.lower_speeds) + inputs.hits) as task:
         slower = []
         for speed in inputs.lower_speeds:
-            solvers.append(cell(speed))
-            slower.append(strike(solvers[-1], inputs.shot, 1, predicted))
+            solver, found = struck(speed, 1, None)
+            solvers.append(solver)
+            slower.append(found)
             task.update(len(solvers))
         hits: list[SingleHit] = []
         for hit in range(1, inputs.hits + 1):
-            solver = cell(inputs.speed)
-            if hits:
-                solver.take_over(solvers[-1])
+            solver, found = struck(inputs.speed, hit, solvers[-1] if hits else None)
             solvers.append(solver)
-            hits.append(strike(solver, inputs.shot, hit, predicted))
+            hits.append(found)
             task.update(len(solvers))
     elapsed = time.perf_counter() - began
     return _record(inputs, solvers, (*slower, hits[0]), tuple(hits), elapsed)
@@ -54,7 +67,8 @@ def _record(
     inputs: Inputs, solvers: list[Solver], speeds: tuple[SingleHit, ...], hits: tuple[SingleHit, ...], elapsed: float
 ) -> Calibration:
     last = solvers[-1]
-    patch, stress = last.deck.patch, outcome.stresses(last)[0]
+    patch, numbers = last.deck.patch, last.order.elements  # the solver may have an order of its own
+    stress = in_order_of_deck(outcome.stresses(last)[0], numbers)
     peeq = outcome.element_values(last, last.state.peeq)
     layers = int(patch.layer.max()) + 1
     weights = _disc_areas(last, inputs.disc_radius)
@@ -68,7 +82,7 @@ def _record(
         shot_density=inputs.shot.density,
         speeds=speeds,
         hits=hits,
-        depth=patch.depth[:layers].copy(),
+        depth=in_order_of_deck(patch.depth, numbers)[:layers],
         mean_stress=mean[:, :3],
         mean_peeq=mean[:, 3],
         axis_stress=columns[on_axis, :, :3],

@@ -21,7 +21,7 @@ from peenflow.records.upstream import Upstream
 from peenflow.scene import Scene, Skip
 
 LOWER_SPEEDS = (0.4, 0.7)  # of the nozzle's: most impacts arrive slower than they left it
-DENTS_AT_REST = 0.002  # residual at which dents no longer change by 0.1 %: a case with a part takes no stress from here
+DENTS_AT_REST = 0.005  # residual at which dents no longer change by 0.1 %: a case with a part takes no stress from here
 REPEATED_HITS = 4  # the paper's Table 4
 
 
@@ -44,8 +44,9 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
     """What to calibrate, or why nothing needs it."""
     del upstream
     case, single = scene.case, scene.case.single_shot
-    if case.impacts is not None and scene.knobs.load == "impact":
-        return Skip("the case gives its impacts and loads them as spheres: no calibration is used")
+    if (case.impacts or case.contacts) and scene.knobs.load == "impact":
+        given = "impacts" if case.impacts else "contacts"
+        return Skip(f"the case gives its {given} and loads them as spheres: no calibration is used")
     friction = case.dem.friction if scene.effects["contact_friction"].on else 0.0
     return Inputs(
         material=scene.material,
@@ -56,6 +57,8 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
             time_step=scene.knobs.time_step,
             relaxation=scene.knobs.relaxation if single else max(scene.knobs.relaxation, DENTS_AT_REST),
             far_field=single is None or scene.knobs.boundary == "far-field",
+            hourglass=scene.knobs.hourglass,
+            precision=scene.knobs.precision,
         ),
         speed=scene.speed,
         lower_speeds=() if single else tuple(share * scene.speed for share in LOWER_SPEEDS),

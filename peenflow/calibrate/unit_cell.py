@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from peenflow.geometry.block import build_block
+from peenflow.case.accuracy import CELL_WIDTH, HOURGLASS
+from peenflow.geometry.block import build_block, nodal_areas
 from peenflow.geometry.grading import layers
 from peenflow.records.deck import Controls, Deck, FarField, Placement, Roller, Spheres
 from peenflow.records.material import Material
 from peenflow.records.target import Patch
 
 FINE = 2.3  # dent radii of uniform elements around the dent
-WIDTH = 9.0  # shot radii of the cell; with absorbing faces the residual stress no longer sees them
 GROWTH = 1.15  # of the elements outside the fine zone
 SEPARATION = 1e-9  # s, flight before first touch
 
@@ -34,6 +34,8 @@ class Numerics:
     time_step: float  # share of the stable one
     relaxation: float  # residual
     far_field: bool  # absorbing faces; else fixed ones
+    hourglass: float = HOURGLASS
+    precision: str = "float64"
 
 
 def quarter_cell(shot: Shot, numerics: Numerics) -> Patch:
@@ -49,21 +51,9 @@ def half_cell(shot: Shot, numerics: Numerics) -> Patch:
 
 
 def _grid(shot: Shot, numerics: Numerics) -> tuple[np.ndarray, np.ndarray]:
-    fine, size = FINE * numerics.dent_radius, WIDTH * 0.5 * shot.diameter
+    fine, size = FINE * numerics.dent_radius, CELL_WIDTH * 0.5 * shot.diameter
     steps = layers(numerics.mesh_size, fine, size, GROWTH)
     return steps, np.concatenate([[0.0], np.cumsum(steps)])
-
-
-def nodal_areas(patch: Patch, name: str) -> np.ndarray:
-    """Area (k,) [m²] each node of a plane face of the block stands for."""
-    nodes = patch.nodes[patch.node_sets[name]]
-    spans = [axis for axis in range(3) if np.ptp(nodes[:, axis]) > 0]
-    area = np.ones(len(nodes))
-    for axis in spans:
-        lines, where = np.unique(nodes[:, axis], return_inverse=True)
-        width = np.diff(lines)
-        area *= (0.5 * (np.concatenate([[0.0], width]) + np.concatenate([width, [0.0]])))[where]
-    return area
 
 
 def boundaries(patch: Patch, far_field: bool) -> tuple[tuple[Roller, ...], tuple[FarField, ...]]:
@@ -95,8 +85,10 @@ def cell_deck(patch: Patch, shot: Shot, velocity: np.ndarray, material: Material
             title="unit cell",
             end_time=0.0,
             time_step_share=numerics.time_step,
+            hourglass_stiffness=numerics.hourglass,
+            precision=numerics.precision,
             relaxation=numerics.relaxation,
-            relaxation_time=20 * WIDTH * 0.5 * shot.diameter / material.c_s,
+            relaxation_time=20 * CELL_WIDTH * 0.5 * shot.diameter / material.c_s,
             checkpoint_steps=0,
         ),
         patch=patch,

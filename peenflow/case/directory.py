@@ -13,9 +13,12 @@ from peenflow.case import overrides, problems, rules
 from peenflow.case.lines import KeyPath, key_lines, line_of
 from peenflow.case.model import Case
 from peenflow.case.problems import Problem
-from peenflow.errors import InputError
+from peenflow.errors import InputError, shortened
 
 CASE_FILE = "case.toml"
+LARGEST = 1 << 20  # bytes of a case file
+DEEPEST = 16  # tables and arrays inside each other
+MOST_TOLD = 6  # complaints
 
 
 @dataclass(frozen=True)
@@ -50,10 +53,7 @@ def read_case(path: Path, settings: Sequence[str] = ()) -> tuple[Case, Path]:
     """
     file = path if path.suffix == ".toml" else path / CASE_FILE
     text = _read_text(file)
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{_syntax_place(file, text, str(error))} Mend that line.") from error
+    data = _parsed(file, text)
     data, placed = overrides.apply(data, settings)
     source = _Source(file, key_lines(text), placed)
     case, found = _validated(data)
@@ -65,8 +65,13 @@ def read_case(path: Path, settings: Sequence[str] = ()) -> tuple[Case, Path]:
 
 
 def _read_text(file: Path) -> str:
+    """The file's text, of which an endless one is not read to its end."""
     try:
-        return file.read_text(encoding="utf-8")
+        with open(file, "rb") as handle:
+            content = handle.read(LARGEST + 1)
+        if len(content) > LARGEST:
+            raise InputError(f"{file} is larger than {LARGEST} bytes, which no case is: name a case file.")
+        return content.decode("utf-8-sig").replace("\r\n", "\n")
     except FileNotFoundError as error:
         raise InputError(
             f"{file} does not exist: name a case directory that holds a {CASE_FILE}, or make one with `peenflow init`."
@@ -77,6 +82,29 @@ def _read_text(file: Path) -> str:
         raise InputError(f"{file} cannot be read: {error.strerror}. Make it a readable file.") from error
 
 
+def _parsed(file: Path, text: str) -> dict[str, Any]:
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{_syntax_place(file, text, str(error))} Mend that line.") from error
+    except RecursionError as error:
+        raise InputError(f"{file} has arrays or tables more than {DEEPEST} deep: a case needs 4.") from error
+    except ValueError as error:  # Python's own, of a number with thousands of digits or a month 13
+        raise InputError(f"{file} has a number or date that cannot be read: {error}. Mend it.") from error
+    if _depth(data) > DEEPEST:
+        raise InputError(f"{file} has arrays or tables more than {DEEPEST} deep: a case needs 4.")
+    return data
+
+
+def _depth(data: Any) -> int:
+    """How many tables and arrays lie inside each other."""
+    level, depth = [data], 0
+    while level := [node for node in level if isinstance(node, dict | list)]:
+        level = [inner for node in level for inner in (node.values() if isinstance(node, dict) else node)]
+        depth += 1
+    return depth
+
+
 def _syntax_place(file: Path, text: str, message: str) -> str:
     at = re.search(r" \(at line (\d+), column (\d+)\)", message)
     line = at[1] if at else text.count("\n") + 1
@@ -84,6 +112,8 @@ def _syntax_place(file: Path, text: str, message: str) -> str:
 
 
 def _validated(data: dict[str, Any]) -> tuple[Case | None, list[Problem]]:
+    if unclean := list(problems.of_control_characters(data)):
+        return None, unclean
     try:
         return Case.model_validate(data), []
     except ValidationError as error:
@@ -91,8 +121,13 @@ def _validated(data: dict[str, Any]) -> tuple[Case | None, list[Problem]]:
 
 
 def _paragraph(found: list[Problem], source: _Source) -> str:
-    return " ".join(f"{source.place(problem.path)}: {_sentence(problem.message)}" for problem in found)
+    told = " ".join(
+        f"{shortened(source.place(problem.path), problems.LONGEST)}: {_sentence(problem.message)}"
+        for problem in found[:MOST_TOLD]
+    )
+    return told if len(found) <= MOST_TOLD else f"{told} And {len(found) - MOST_TOLD} more."
 
 
 def _sentence(message: str) -> str:
+    message = shortened(message, problems.LONGEST)
     return message if message.endswith((".", "?")) else f"{message}."

@@ -2,17 +2,22 @@
 
 import csv
 import math
-from collections.abc import Iterator
+from array import array
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from peenflow.errors import InputError
+from peenflow.files import lines as lines_of
 from peenflow.geometry import Surface
 
 COLUMNS = ("t_s", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s")
 OPTIONAL = "diameter_m"
+MOST = 10_000_000  # rows
+FASTEST = 500.0  # m/s; above, shots shatter and the material laws here were never measured
+FARTHEST = 1e3  # m, of a place, and s of a time
 ON_SURFACE = 1e-6  # m: how far from the surface a first touch may be written (rounding of the table)
 
 
@@ -33,22 +38,25 @@ def read_impacts(path: Path, surface: Surface | None = None) -> ImpactTable:
 
     Raises:
         InputError: no such file, a missing or unknown column, a cell that is not a finite number, no rows,
-            a negative diameter, a point off the surface, a shot that does not approach it; with file and line.
+            a negative diameter, a number too large to compute with, a point off the surface, a shot that does not
+            approach it; with file and line.
     """
     try:
         with open(path, newline="", encoding="utf-8-sig") as handle:
-            reader = csv.reader(handle)
+            reader = csv.reader(lines_of(handle))
             header = [name.strip() for name in next(reader, [])]
             _check_header(path, header)
-            rows = list(_numbers(path, header, reader))
-    except (OSError, UnicodeDecodeError) as error:
+            lines, numbers = array("q"), array("d")
+            for line, row in _numbers(path, header, reader):
+                lines.append(line)
+                numbers.extend(row)
+    except (OSError, ValueError, csv.Error) as error:
         raise InputError(
             f"The impacts' table {path} cannot be read: {error}. Correct [impacts] file in case.toml."
         ) from error
-    if not rows:
+    if not lines:
         raise InputError(f"The impacts' table {path} has no rows. Give at least one impact below the header.")
-    lines = [line for line, _ in rows]
-    values = np.array([numbers for _, numbers in rows])
+    values = np.array(numbers).reshape(-1, len(header))
     column = {name: values[:, i] for i, name in enumerate(header)}
     table = ImpactTable(
         t=column["t_s"],
@@ -57,6 +65,8 @@ def read_impacts(path: Path, surface: Surface | None = None) -> ImpactTable:
         diameter=column.get(OPTIONAL),
     )
     _refuse(path, lines, table.diameter is not None and table.diameter <= 0, "diameter_m is not positive")
+    _refuse(path, lines, np.abs(values).max(axis=1) > FARTHEST, f"a number is above {FARTHEST:g}")
+    _refuse(path, lines, np.linalg.norm(table.velocity, axis=1) > FASTEST, f"the shot is faster than {FASTEST:g} m/s")
     if surface is not None:
         _check_surface(path, lines, table, surface)
     return table
@@ -78,6 +88,8 @@ def _numbers(path: Path, header: list[str], reader: Iterator[list[str]]) -> Iter
     for line, cells in enumerate(reader, start=2):
         if not any(cell.strip() for cell in cells):
             continue
+        if line > MOST:
+            raise InputError(f"The impacts' table {path} has more than {MOST} lines: split it into several cases.")
         if len(cells) != len(header):
             raise InputError(
                 f"The impacts' table {path}, line {line}, has {len(cells)} cells where {len(header)} are due. "
@@ -99,7 +111,7 @@ def _number(path: Path, line: int, name: str, cell: str) -> float:
     return value
 
 
-def _check_surface(path: Path, lines: list[int], table: ImpactTable, surface: Surface) -> None:
+def _check_surface(path: Path, lines: Sequence[int], table: ImpactTable, surface: Surface) -> None:
     height = surface.height(table.point)
     _refuse(path, lines, height > ON_SURFACE, "the point lies above the target's surface, where nothing is touched yet")
     _refuse(path, lines, height < -ON_SURFACE, "the point lies below the target's surface, inside the metal")
@@ -107,7 +119,7 @@ def _check_surface(path: Path, lines: list[int], table: ImpactTable, surface: Su
     _refuse(path, lines, approach <= 0, "the velocity does not point into the metal")
 
 
-def _refuse(path: Path, lines: list[int], wrong: np.ndarray | bool, fault: str) -> None:
+def _refuse(path: Path, lines: Sequence[int], wrong: np.ndarray | bool, fault: str) -> None:
     rows = np.flatnonzero(wrong)
     if rows.size:
         more = f" (and {rows.size - 1} more rows)" if rows.size > 1 else ""

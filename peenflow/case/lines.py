@@ -76,6 +76,7 @@ class _Scanner:
         *outer, last = self._key()
         for part in outer:  # a table inside an array of tables belongs to the array's latest
             path = (*path, part)
+            self._note(path, start)  # unless it has a header of its own above
             path = (*path, self.counts[path] - 1) if path in self.counts else path
         path = (*path, last)
         self._note(path, start)

@@ -1,8 +1,8 @@
 """The case file as a validated, frozen model in SI units (design: case file)."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from peenflow.case import units
 
@@ -17,10 +17,20 @@ Vector = tuple[float, float, float]
 Position = tuple[units.Length, units.Length, units.Length]
 
 
-class Section(BaseModel):
-    """A table of the case file: no unknown keys, no changes after reading."""
+def _as_tuple(value: Any) -> Any:
+    return tuple(map(_as_tuple, value)) if isinstance(value, list) else value
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+class Section(BaseModel):
+    """A table of the case file: no unknown keys, no changes after reading, `true` and `"1"` are not numbers."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, strict=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_tuples(cls, data: Any) -> Any:
+        """TOML's arrays as tuples, which frozen models hold and strict ones demand."""
+        return {key: _as_tuple(value) for key, value in data.items()} if isinstance(data, dict) else data
 
 
 class Constants(Section):
@@ -39,11 +49,32 @@ class JohnsonCookConstants(Section):
     A: Annotated[units.Pressure, Field(gt=0)] | None = None
     B: Annotated[units.Pressure, Field(ge=0)] | None = None
     n: Annotated[float, Field(gt=0, le=1)] | None = None
-    C: Annotated[float, Field(ge=0)] | None = None
+    C: Annotated[float, Field(ge=0, le=1)] | None = None
     reference_rate: Annotated[units.Rate, Field(gt=0)] | None = None
     m: Positive | None = None
     melt: Annotated[units.Temperature, Field(gt=0)] | None = None
     room: Annotated[units.Temperature, Field(gt=0)] | None = None
+
+
+class KinematicHardeningConstants(Section):
+    """Constants of the backstress a case overwrites or brings."""
+
+    modulus: Annotated[units.Pressure, Field(gt=0)] | None = None
+    recall: Positive | None = None
+
+
+class SizeSpread(Section):
+    """[shot] size_spread: how the shots' diameters scatter about the given one, by number."""
+
+    kind: Literal["normal"]
+    sigma: PositiveLength
+
+
+class SpeedSpread(Section):
+    """[[nozzle]] speed_spread: how the shots' speeds scatter about the given one."""
+
+    kind: Literal["normal"]
+    sigma: PositiveSpeed
 
 
 class Shot(Section):
@@ -51,6 +82,7 @@ class Shot(Section):
 
     diameter: PositiveLength | None = None
     size: str | None = None
+    size_spread: SizeSpread | None = None
     material: str = "steel"
     constants: Constants = Constants()
 
@@ -70,17 +102,42 @@ class BoltHoleGeometry(Section):
     length: PositiveLength
 
 
-Geometry = Annotated[PlateGeometry | BoltHoleGeometry, Field(discriminator="kind")]
+class FilletGeometry(Section):
+    """A blade on its platform, z = 0, with a root fillet on either side; x runs along the blade, z up it."""
+
+    kind: Literal["fillet"]
+    radius: PositiveLength
+    thickness: PositiveLength
+    height: PositiveLength
+    length: PositiveLength
+    platform: PositiveLength
+
+
+class StepGeometry(Section):
+    """Faces of a solid in a STEP file, in its own frame."""
+
+    kind: Literal["step"]
+    file: str
+    faces: Annotated[tuple[int, ...], Field(min_length=1)]
+
+
+CadGeometry = FilletGeometry | StepGeometry
+Geometry = Annotated[PlateGeometry | BoltHoleGeometry | FilletGeometry | StepGeometry, Field(discriminator="kind")]
 
 
 class PatchSize(Section):
-    """[target] patch: along axis 1 (`length`), along axis 2 (`arc` on a hole, `width` on a plate), and where."""
+    """[target] patch: along axis 1 (`length`), along axis 2 (`arc` where that is round, else `width`), and where."""
 
     length: PositiveLength
     width: PositiveLength | None = None
     arc: PositiveLength | None = None
     depth: PositiveLength | None = None
-    at: Literal["densest"] | tuple[str, str] = "densest"
+    at: Literal["densest"] | tuple[str, str] | tuple[str, str, str] = "densest"
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Along axes 1 and 2 [m]."""
+        return self.length, self.arc or self.width or self.length
 
 
 class TargetSection(Section):
@@ -92,6 +149,7 @@ class TargetSection(Section):
     temperature: Annotated[units.Temperature, Field(gt=0)] = 293.15
     constants: Constants = Constants()
     johnson_cook: JohnsonCookConstants = JohnsonCookConstants()
+    kinematic_hardening: KinematicHardeningConstants = KinematicHardeningConstants()
 
 
 class Nozzle(Section):
@@ -101,6 +159,7 @@ class Nozzle(Section):
     direction: Vector
     diameter: PositiveLength
     speed: PositiveSpeed
+    speed_spread: SpeedSpread | None = None
     rate: Annotated[units.Rate, Field(gt=0)] | None = None
     mass_rate: Annotated[units.MassRate, Field(gt=0)] | None = None
     cone: Annotated[units.Angle, Field(ge=0, lt=3.1)] = 0.0
@@ -127,18 +186,25 @@ class Deflector(Section):
 class Dem(Section):
     """[dem]: contact law between shots and walls."""
 
-    engine: Literal["auto", "liggghts"] = "auto"
+    engine: Literal["auto", "liggghts", "event-driven"] = "auto"
     restitution: Literal["calibrated"] | Restitution = "calibrated"
     shot_restitution: Restitution = 0.57
     friction: Annotated[float, Field(ge=0)] = 0.3
+
+
+class AirSection(Section):
+    """[air]: still air around the shots; the defaults are those of 20 °C and 101 325 Pa (Lemmon and Jacobsen 2004)."""
+
+    density: Annotated[units.Density, Field(gt=0)] = 1.204
+    viscosity: Annotated[units.Viscosity, Field(gt=0)] = 1.82e-5
 
 
 class Exposure(Section):
     """[exposure]: how long, and the random numbers' seed."""
 
     duration: PositiveDuration
-    seed: Annotated[int, Field(ge=0)] = 1
-    shards: Annotated[int, Field(ge=1)] = 1
+    seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
+    shards: Annotated[int, Field(ge=1, le=10_000)] = 1
 
 
 class SingleShot(Section):
@@ -155,10 +221,40 @@ class ImpactsFile(Section):
     file: str
 
 
+class ContactColumns(Section):
+    """[contacts] columns: the headers of another tool's table; a unit in brackets ends one that is not in SI."""
+
+    t: str
+    shot: str
+    x: str
+    y: str
+    z: str
+    vx: str
+    vy: str
+    vz: str
+    fx: str | None = None
+    fy: str | None = None
+    fz: str | None = None
+    diameter: str | None = None
+    surface: str | None = None
+
+
+class ContactsFile(Section):
+    """[contacts]: another DEM tool's table instead of nozzles."""
+
+    file: str
+    columns: ContactColumns
+    target: str | None = None
+    interval: PositiveDuration | None = None
+    shots: Annotated[int, Field(ge=1)] | None = None
+
+
 class Accuracy(Section):
     """[accuracy]: a preset, and every knob that overrides it (design: what accuracy costs in time)."""
 
     preset: Literal["draft", "standard", "fine"] = "standard"
+    target: Annotated[units.Share, Field(gt=0, lt=1)] | None = None
+    budget: PositiveDuration | None = None
     mesh_size: PositiveLength | None = None
     calibration_mesh_size: PositiveLength | None = None
     depth: PositiveLength | None = None
@@ -167,9 +263,13 @@ class Accuracy(Section):
     load: Literal["impact", "pressure"] = "impact"
     time_step: Annotated[float, Field(gt=0, le=1)] | None = None
     relaxation: Annotated[float, Field(gt=0, lt=1)] | None = None
-    dem_time_step: Annotated[float, Field(gt=0, le=0.5)] | None = None
+    hourglass: Annotated[float, Field(gt=0, le=0.5)] | None = None
+    precision: Literal["float64", "float32"] = "float64"
+    dem_time_step: Annotated[float, Field(gt=0)] | None = None
+    dem_time_step_forced: bool = False
     contact_interval: Annotated[int, Field(ge=1, le=4)] | None = None
     group_distance: Literal["off"] | Positive | None = None
+    active_radius: Literal["off"] | Positive = "off"
     min_normal_speed: Annotated[units.Speed, Field(ge=0)] | None = None
 
 
@@ -178,10 +278,15 @@ class Effects(Section):
 
     rate_hardening: Switch = "auto"
     thermal_softening: Switch = "auto"
+    kinematic_hardening: Switch = "auto"
     contact_friction: Switch = "auto"
     shot_collisions: Switch = "auto"
     gravity: Switch = "auto"
+    air_drag: Switch = "auto"
     deflector_motion: Switch = "auto"
+    size_spread: Switch = "auto"
+    speed_spread: Switch = "auto"
+    cor_hardening: Switch = "auto"
     far_field: Switch = "auto"
 
 
@@ -211,8 +316,10 @@ class Case(Section):
     nozzle: tuple[Nozzle, ...] = ()
     deflector: Deflector | None = None
     dem: Dem = Dem()
+    air: AirSection = AirSection()
     exposure: Exposure | None = None
     impacts: ImpactsFile | None = None
+    contacts: ContactsFile | None = None
     single_shot: SingleShot | None = None
     accuracy: Accuracy = Accuracy()
     effects: Effects = Effects()

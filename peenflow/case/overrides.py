@@ -1,16 +1,23 @@
 """`--set key=value`: values from the command line over those of the file."""
 
 import copy
+import re
 import tomllib
 from collections.abc import Sequence
 from typing import Any
 
 from peenflow.case.lines import KeyPath
-from peenflow.case.problems import takes_text
-from peenflow.errors import InputError
+from peenflow.case.problems import LONGEST, takes_text
+from peenflow.errors import InputError, shortened
 
-TWINS = {"diameter": "size", "size": "diameter", "rate": "mass_rate", "mass_rate": "rate"}
-"""Keys of which a table takes one: setting one replaces the other."""
+DEEPEST = 16  # parts of a key
+_INDEX = re.compile(r"[0-9]{1,9}")
+ONE_OF = (
+    ("shot", {"diameter", "size"}),
+    ("nozzle", {"rate", "mass_rate"}),
+    ("accuracy", {"preset", "target", "budget"}),
+)
+"""Keys of which a table takes one: setting one replaces the others."""
 
 
 def apply(data: dict[str, Any], settings: Sequence[str]) -> tuple[dict[str, Any], dict[KeyPath, str]]:
@@ -23,12 +30,15 @@ def apply(data: dict[str, Any], settings: Sequence[str]) -> tuple[dict[str, Any]
     placed: dict[KeyPath, str] = {}
     for setting in settings:
         key, equals, text = setting.partition("=")
-        if not equals or not all(part.strip() for part in key.split(".")):
-            raise InputError(f'--set {setting}: write --set key=value, like --set shot.diameter="0.43 mm"')
-        path = _place(data, [part.strip() for part in key.split(".")], text.strip(), setting)
+        parts = [part.strip() for part in key.split(".")]
+        if not equals or not all(parts) or len(parts) > DEEPEST:
+            raise InputError(
+                f'--set {shortened(setting, LONGEST)}: write --set key=value, like --set shot.diameter="0.43 mm"'
+            )
+        path = _place(data, parts, text.strip(), setting)
         placed[path] = setting
     for path in placed:
-        _drop_twin(data, path, placed)
+        _drop_twins(data, path, placed)
     return data, placed
 
 
@@ -36,7 +46,7 @@ def _value(text: str, is_text: bool) -> Any:
     """The value as TOML reads it; what is not TOML, or not text where the key takes text, has lost its quotes."""
     try:
         parsed = tomllib.loads(f"value = {text}")
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # not TOML, a number of thousands of digits, brackets without end
         return text
     value = parsed["value"]
     return text if len(parsed) > 1 or (is_text and not isinstance(value, str)) else value
@@ -48,14 +58,17 @@ def _place(data: dict[str, Any], parts: list[str], text: str, setting: str) -> K
     for part in parts:
         step: str | int = part
         if isinstance(node, list):
-            if not part.isdigit() or int(part) >= len(node):
+            if not _INDEX.fullmatch(part) or int(part) >= len(node):
                 where = ".".join(map(str, path))
                 raise InputError(
-                    f"--set {setting}: {where} has {len(node)} entries, numbered from 0; there is no {part}"
+                    f"--set {shortened(setting, LONGEST)}: {where} has {len(node)} entries, numbered from 0; "
+                    f"there is no {shortened(part, LONGEST)}"
                 )
             step = int(part)
         elif not isinstance(node, dict):
-            raise InputError(f"--set {setting}: {'.'.join(map(str, path))} is a value, not a table with a key {part}")
+            where = shortened(".".join(map(str, path)), LONGEST)
+            what = f"is a value, not a table with a key {shortened(part, LONGEST)}"
+            raise InputError(f"--set {shortened(setting, LONGEST)}: {where} {what}")
         path = (*path, step)
         if len(path) == len(parts):
             node[step] = _value(text, takes_text(path, data))
@@ -64,13 +77,14 @@ def _place(data: dict[str, Any], parts: list[str], text: str, setting: str) -> K
     return path
 
 
-def _drop_twin(data: dict[str, Any], path: KeyPath, placed: dict[KeyPath, str]) -> None:
-    """Remove the key that excludes the one set, where the file had it in the same table."""
+def _drop_twins(data: dict[str, Any], path: KeyPath, placed: dict[KeyPath, str]) -> None:
+    """Remove the keys that exclude the one set, where the file had them in the same table."""
     *outer, last = path
-    twin = TWINS.get(str(last))
-    if twin is None or (*outer, twin) in placed or path[0] not in ("shot", "nozzle"):
-        return
-    table: Any = data
-    for part in outer:
-        table = table[part]
-    table.pop(twin, None)
+    for name, keys in ONE_OF:
+        if path[0] == name and last in keys:
+            table: Any = data
+            for part in outer:
+                table = table[part]
+            for twin in keys - {last}:
+                if (*outer, twin) not in placed:
+                    table.pop(twin, None)

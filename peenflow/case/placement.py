@@ -1,9 +1,10 @@
 """Whether shots, nozzles, rod and patch fit the part: sizes and places against each other."""
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterator
 
-from peenflow.case import units
+from peenflow.case import cad_rules, units
 from peenflow.case.accuracy import patch_depth
 from peenflow.case.lines import KeyPath
 from peenflow.case.model import BoltHoleGeometry, Case, Deflector, Nozzle, PatchSize, PlateGeometry
@@ -17,11 +18,16 @@ def _mm(length: float) -> str:
     return f"{length * 1e3:.4g} mm"
 
 
+def _largest(case: Case) -> float:
+    """Diameter [m] of the largest shot that may be thrown."""
+    return float(shots.thrown(case.shot, case.shot.size_spread).diameters[-1])
+
+
 def _shot_in_hole(case: Case) -> Iterator[Problem]:
     hole, key = case.target.geometry, ("shot", "size" if case.shot.size else "diameter")
     if not isinstance(hole, BoltHoleGeometry):
         return
-    shot, rod = shots.properties(case.shot).diameter, case.deflector.diameter if case.deflector else 0.0
+    shot, rod = _largest(case), case.deflector.diameter if case.deflector else 0.0
     if shot >= hole.diameter:
         yield Problem(key, f"a shot of {_mm(shot)} does not fit into the hole of {_mm(hole.diameter)}")
     elif rod >= hole.diameter:
@@ -42,6 +48,7 @@ def _patch_in_part(case: Case) -> Iterator[Problem]:
     depths = {("accuracy", "depth"): case.accuracy.depth, (*path, "depth"): patch.depth}
     if isinstance(geometry, BoltHoleGeometry):
         yield from _patch_in_hole(geometry, patch)
+    if not isinstance(geometry, PlateGeometry):
         return
     yield from _centre(patch, "m", "a length")
     for key, depth in depths.items():
@@ -54,7 +61,8 @@ def _far_field(case: Case) -> Iterator[Problem]:
     geometry = case.target.geometry
     if not isinstance(geometry, PlateGeometry) or case.target.patch is None:
         return
-    if patch_depth(case, shots.properties(case.shot)) < geometry.thickness * (1 - 1e-9):
+    shot = dataclasses.replace(shots.properties(case.shot), diameter=_largest(case))
+    if patch_depth(case, shot) < geometry.thickness * (1 - 1e-9):
         return
     wishes = {("accuracy", "boundary"): case.accuracy.boundary, ("effects", "far_field"): case.effects.far_field}
     for key, wish in wishes.items():
@@ -101,11 +109,10 @@ def _nozzles(case: Case) -> Iterator[Problem]:
         if isinstance(case.target.geometry, PlateGeometry):
             yield from _nozzle_over_plate(path, nozzle)
         if isinstance(case.target.geometry, BoltHoleGeometry):
-            yield from _nozzle_at_hole(path, nozzle, case.target.geometry, shots.properties(case.shot).diameter)
-        if nozzle.diameter < shots.properties(case.shot).diameter:
+            yield from _nozzle_at_hole(path, nozzle, case.target.geometry, _largest(case))
+        if nozzle.diameter < _largest(case):
             yield Problem(
-                (*path, "diameter"),
-                f"{_mm(nozzle.diameter)} is narrower than the shot, {_mm(shots.properties(case.shot).diameter)}",
+                (*path, "diameter"), f"{_mm(nozzle.diameter)} is narrower than the shot, {_mm(_largest(case))}"
             )
 
 
@@ -181,9 +188,9 @@ def _rod_before_nozzles(case: Case, rod: Deflector) -> Iterator[Problem]:
 
 
 def _shots_thrown(case: Case) -> float:
-    shot = shots.properties(case.shot)
+    thrown = shots.thrown(case.shot, case.shot.size_spread)
     duration = case.exposure.duration if case.exposure else 0.0
-    return sum(shot.per_second(nozzle) for nozzle in case.nozzle) * duration
+    return sum(thrown.per_second(nozzle) for nozzle in case.nozzle) * duration
 
 
 def _number_of_shots(case: Case) -> Iterator[Problem]:
@@ -207,4 +214,5 @@ RULES: tuple[Callable[[Case], Iterator[Problem]], ...] = (
     _nozzles,
     _deflector,
     _number_of_shots,
+    *cad_rules.RULES,
 )

@@ -12,7 +12,9 @@ from pydantic_core import ErrorDetails
 
 from peenflow.case.lines import KeyPath
 from peenflow.case.model import Case
+from peenflow.errors import is_control
 
+LONGEST = 240  # characters of one complaint, of the place it is about, and of a setting
 _BOUNDS = {
     "greater_than": ("more than", "gt"),
     "greater_than_equal": ("at least", "ge"),
@@ -54,6 +56,15 @@ def of_validation(error: ValidationError, data: dict[str, Any]) -> list[Problem]
     return [Problem(path, _joined(said)) for path, said in messages.items() if path not in around]
 
 
+def of_control_characters(node: Any, path: KeyPath = ()) -> Iterator[Problem]:
+    """Texts with characters that a terminal, a job script or a page would obey."""
+    if isinstance(node, dict | list):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield from of_control_characters(value, (*path, key))
+    elif isinstance(node, str) and any(map(is_control, node)):
+        yield Problem(path, f"{node!r} has a control character in it (a line's end, an escape): remove it")
+
+
 def _place(detail: ErrorDetails, data: dict[str, Any]) -> tuple[KeyPath, Any]:
     """The key's path and value: of the model's path, the parts that lead somewhere in the data."""
     path: KeyPath = ()
@@ -85,13 +96,16 @@ def _message(detail: ErrorDetails, path: KeyPath, value: Any, data: dict[str, An
         expected = str(context.get("expected", context.get("expected_tags"))).replace("'", '"')
         return f"must be {expected}, not {_shown(value)}"
     if kind == "union_tag_not_found":
-        return 'a key is missing: kind = "plate" or "bolt-hole"'
+        return 'a key is missing: kind = "plate", "bolt-hole", "fillet" or "step"'
     if kind in ("too_short", "too_long"):
         return f"must have {context.get('min_length', context.get('max_length'))} entries"
     return f"must be {_KINDS[kind]}, not {_shown(value)}" if kind in _KINDS else detail["msg"]
 
 
 def _shown(value: Any) -> str:
+    """As TOML writes it, roughly."""
+    if isinstance(value, bool):
+        return str(value).lower()
     return f'"{value}"' if isinstance(value, str) else str(value)
 
 

@@ -1,15 +1,20 @@
 """What no single key can say: which tables go together, and that names, materials and files exist."""
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from peenflow.case import placement
 from peenflow.case.lines import KeyPath
-from peenflow.case.model import BoltHoleGeometry, Case, PlateGeometry
+from peenflow.case.model import BoltHoleGeometry, Case, PlateGeometry, StepGeometry
 from peenflow.case.problems import Problem
 from peenflow.errors import InputError
 from peenflow.materials import library, shots
+from peenflow.records.material import Material
 
+SMALLEST = 0.1  # of the mean diameter: a smaller shot leaves no dent worth counting, and its time step is as small
+WIDEST = 0.2  # standard deviation over mean of the speeds: the slowest of a million shots still flies forwards
+LARGEST_DEM_STEP = 0.5  # of the Rayleigh step: restitution is off by 3 % there, and contacts gain energy at 1.6
 FASTEST = 500.0  # m/s; above, shots shatter and the material laws here were never measured
 
 
@@ -24,12 +29,13 @@ def broken(case: Case, directory: Path) -> list[Problem]:
 
 
 def _work(case: Case) -> Iterator[Problem]:
-    given = [name for name in ("nozzle", "impacts", "single_shot") if getattr(case, name)]
+    given = [name for name in ("nozzle", "impacts", "contacts", "single_shot") if getattr(case, name)]
     if not given:
-        yield Problem((), "nothing is shot: add one of [[nozzle]], [impacts], [single_shot]")
+        yield Problem((), "nothing is shot: add one of [[nozzle]], [impacts], [contacts], [single_shot]")
     if len(given) > 1:
         yield Problem(
-            (given[1],), f"excludes {given[0]}: a case has one of nozzle, impacts, single_shot; remove the others"
+            (given[1],),
+            f"excludes {given[0]}: a case has one of nozzle, impacts, contacts, single_shot; remove the others",
         )
 
 
@@ -51,7 +57,8 @@ def _part(case: Case) -> Iterator[Problem]:
     geometry, patch = case.target.geometry, case.target.patch
     if patch is None or geometry is None:
         return
-    right, wrong = ("width", "arc") if isinstance(geometry, PlateGeometry) else ("arc", "width")
+    straight = isinstance(geometry, PlateGeometry | StepGeometry)
+    right, wrong = ("width", "arc") if straight else ("arc", "width")
     if getattr(patch, wrong) is not None:
         yield Problem(("target", "patch", wrong), f"a patch on a {geometry.kind} has {right}, not {wrong}: rename it")
     elif getattr(patch, right) is None:
@@ -82,10 +89,13 @@ def _shot(case: Case) -> Iterator[Problem]:
 def _target(case: Case) -> Iterator[Problem]:
     target = case.target
     try:
-        material = library.material(target.material, target.constants, target.johnson_cook, target.temperature)
+        material = library.material(
+            target.material, target.constants, target.johnson_cook, target.temperature, target.kinematic_hardening
+        )
     except InputError as error:
         yield Problem(("target", "material"), str(error))
         return
+    yield from _backstress(case, material)
     thermal = material.thermal
     if thermal is None:
         return
@@ -97,6 +107,48 @@ def _target(case: Case) -> Iterator[Problem]:
         )
 
 
+def _backstress(case: Case, material: Material) -> Iterator[Problem]:
+    """The backstress takes part of the first loading's flow stress over: more than that there is not."""
+    kinematic, key = material.kinematic, ("target", "kinematic_hardening")
+    if kinematic is None or case.effects.kinematic_hardening == "off":
+        return
+    most = kinematic.modulus / kinematic.recall
+    if most >= material.A:
+        yield Problem(
+            key,
+            f"the backstress saturates at modulus/recall = {most / 1e6:.4g} MPa, not below the yield stress "
+            f"johnson_cook.A = {material.A / 1e6:.4g} MPa: lower modulus, raise recall, or set "
+            'effects.kinematic_hardening = "off"',
+        )
+
+
+def _spreads(case: Case) -> Iterator[Problem]:
+    """Scattered sizes and speeds stay positive, and belong to a stream."""
+    spread, path = case.shot.size_spread, ("shot", "size_spread")
+    if spread and not case.nozzle:
+        yield Problem(path, "sizes scatter in a stream only: without [[nozzle]] remove this key")
+    elif spread:
+        try:
+            mean = shots.properties(case.shot).diameter
+        except InputError:  # said by `_shot`
+            return
+        smallest = float(shots.sizes(mean, spread)[0][0])
+        if smallest < SMALLEST * mean:
+            most = (1 - SMALLEST) * mean / ((mean - smallest) / spread.sigma)
+            yield Problem(
+                (*path, "sigma"),
+                f"{spread.sigma * 1e3:.4g} mm is too wide for shots of {mean * 1e3:.4g} mm: the smallest would be "
+                f"{smallest * 1e3:.3g} mm; at most {most * 1e3:.3g} mm",
+            )
+    for index, nozzle in enumerate(case.nozzle):
+        if nozzle.speed_spread and nozzle.speed_spread.sigma > WIDEST * nozzle.speed:
+            yield Problem(
+                ("nozzle", index, "speed_spread", "sigma"),
+                f"{nozzle.speed_spread.sigma:g} m/s is too wide for {nozzle.speed:g} m/s: some shots would fly "
+                f"backwards; at most {WIDEST * nozzle.speed:.3g} m/s",
+            )
+
+
 def _nozzles(case: Case) -> Iterator[Problem]:
     for index, nozzle in enumerate(case.nozzle):
         path = ("nozzle", index)
@@ -105,6 +157,8 @@ def _nozzles(case: Case) -> Iterator[Problem]:
             yield Problem(path, f"give exactly one of rate and mass_rate; {what}")
         if not any(nozzle.direction):
             yield Problem((*path, "direction"), "is zero: give the way the shots fly, like [0, 0, -1]")
+        elif not 1e-6 < math.hypot(*nozzle.direction) < 1e6:
+            yield Problem((*path, "direction"), "has a length that cannot be computed with: write it like [0, 0, -1]")
 
 
 def _speeds(case: Case) -> Iterator[Problem]:
@@ -118,6 +172,21 @@ def _speeds(case: Case) -> Iterator[Problem]:
             yield Problem(path, f"{speed:g} m/s is faster than shots are peened with: at most {FASTEST:g} m/s")
 
 
+def _accuracy(case: Case) -> Iterator[Problem]:
+    given = [key for key in ("preset", "target", "budget") if key in case.accuracy.model_fields_set]
+    if len(given) > 1:
+        yield Problem(
+            ("accuracy", given[1]), f"excludes {given[0]}: give one of preset, target and budget; remove the others"
+        )
+    step = case.accuracy.dem_time_step or 0.0
+    if step > LARGEST_DEM_STEP and not case.accuracy.dem_time_step_forced:
+        yield Problem(
+            ("accuracy", "dem_time_step"),
+            f"is {step:g} of the Rayleigh step: above {LARGEST_DEM_STEP:g} shots gain energy in contact or fly through "
+            "walls; use 0.2 or less (to see what happens, add dem_time_step_forced = true)",
+        )
+
+
 def _far_field(case: Case) -> Iterator[Problem]:
     wished = {"far-field": "on", "fixed": "off"}.get(case.accuracy.boundary or "")
     if wished and case.effects.far_field not in ("auto", wished):
@@ -126,26 +195,52 @@ def _far_field(case: Case) -> Iterator[Problem]:
         )
 
 
-def _files(case: Case, directory: Path) -> Iterator[Problem]:
-    if case.impacts is None:
+def _contacts(case: Case) -> Iterator[Problem]:
+    if case.contacts is None:
         return
-    name, path = case.impacts.file, ("impacts", "file")
-    inside = (directory / name).resolve().is_relative_to(directory.resolve())
-    if Path(name).is_absolute() or not inside:
+    columns = case.contacts.columns
+    forces = [getattr(columns, name) for name in ("fx", "fy", "fz")]
+    if any(forces) and not all(forces):
+        yield Problem(("contacts", "columns"), "name all of fx, fy, fz, or none of them")
+    if (columns.surface is None) != (case.contacts.target is None):
         yield Problem(
-            path, f"{name!r} leads out of the case directory: copy the file into it and name it relative to it"
+            ("contacts",), "columns.surface and target go together: the column of surfaces, and the part's name in it"
         )
-    elif not (directory / name).is_file():
-        yield Problem(path, f"there is no file {name!r} in the case directory {directory}")
+
+
+def _files(case: Case, directory: Path) -> Iterator[Problem]:
+    """Files the case names lie in its directory."""
+    named: dict[KeyPath, str] = {}
+    if case.impacts is not None:
+        named[("impacts", "file")] = case.impacts.file
+    if case.contacts is not None:
+        named[("contacts", "file")] = case.contacts.file
+    if isinstance(case.target.geometry, StepGeometry):
+        named[("target", "geometry", "file")] = case.target.geometry.file
+    for path, name in named.items():
+        try:
+            file = (directory / name).resolve()
+            inside, found = file.is_relative_to(directory.resolve()), file.is_file()
+        except (OSError, RuntimeError, ValueError):  # a name too long, links in a circle, a zero byte
+            inside, found = True, False
+        if Path(name).is_absolute() or not inside:
+            yield Problem(
+                path, f"{name!r} leads out of the case directory: copy the file into it and name it relative to it"
+            )
+        elif not found:
+            yield Problem(path, f"there is no file {name!r} in the case directory {directory}")
 
 
 _RULES: tuple[Callable[[Case], Iterator[Problem]], ...] = (
     _work,
     _companions,
+    _contacts,
     _part,
     _shot,
     _target,
+    _spreads,
     _nozzles,
     _speeds,
+    _accuracy,
     _far_field,
 )

@@ -23,7 +23,8 @@ class Nozzle:
     position: Annotated[tuple[float, float, float], of("m", "centre of the disc, in the part's frame")]
     direction: Annotated[tuple[float, float, float], of("1", "unit vector in which the shots fly")]
     diameter: Annotated[float, of("m", "of the disc")]
-    speed: Annotated[float, of("m/s", "of the shots")]
+    speed: Annotated[float, of("m/s", "mean of the shots")]
+    speed_spread: Annotated[float, of("m/s", "standard deviation of the shots' speeds (normal); 0: all alike")]
     rate: Annotated[float, of("1/s", "shots a second")]
     cone: Annotated[float, of("rad", "full opening angle; 0: parallel")]
 
@@ -47,6 +48,27 @@ class Rod:
 
 
 @dataclass(frozen=True)
+class Air:
+    """Still air around the shots: drag by Schiller and Naumann (1935)."""
+
+    density: Annotated[float, of("kg/m3", "ρ")]
+    viscosity: Annotated[float, of("Pa s", "μ")]
+
+
+@dataclass(frozen=True)
+class Rebound:
+    """CoR by normal speed and by hits so far at the place: cor(v, hit) = first(v)·factor[hit − 1], the last one kept.
+
+    `first` is linear between `speed`s and constant outside them.
+    """
+
+    speed: Annotated[np.ndarray, of("m/s", "normal speeds, rising", "(k,)")]
+    first: Annotated[np.ndarray, of("1", "CoR of a first hit", "(k,)")]
+    factor: Annotated[np.ndarray, of("1", "of hits 1, 2, … over that of the first", "(h,)")]
+    dent_radius: Annotated[float, of("m", "within which an earlier hit counts as at the same place")]
+
+
+@dataclass(frozen=True)
 class Walls:
     """Target facets and what shots feel of every wall."""
 
@@ -54,7 +76,8 @@ class Walls:
     concave: Annotated[bool, of("1", "the facets bound a bore: neighbours meet at less than 180° on the shots' side")]
     young: Annotated[float, of("Pa", "E")]
     poisson: Annotated[float, of("1", "ν")]
-    restitution: Annotated[float, of("1", "shot against wall")]
+    restitution: Annotated[float, of("1", "shot against wall, where there is no table")]
+    rebound: Rebound | None  # of the target, where CoR hardens; an engine that cannot takes `restitution`
     friction: Annotated[float, of("1", "Coulomb coefficient, shots against walls and each other")]
 
 
@@ -62,12 +85,15 @@ class Walls:
 class Stream:
     """What is shot at what, for how long and how finely: all that an engine needs."""
 
-    shot: ShotProperties
+    shot: ShotProperties  # of mean diameter
+    diameters: Annotated[np.ndarray, of("m", "sizes of the shots, rising", "(k,)")]
+    shares: Annotated[np.ndarray, of("1", "share of each size by number, sum 1", "(k,)")]
     nozzles: tuple[Nozzle, ...]
     walls: Walls
     rod: Rod | None
     shot_restitution: Annotated[float, of("1", "shot against shot")]
     shot_collisions: Annotated[bool, of("1", "shots meet each other")]
+    air: Air | None  # None: no drag
     gravity: Annotated[bool, of("1", "`STANDARD_GRAVITY` acts along −z")]
     duration: Annotated[float, of("s", "of shooting; `FLUSH` follows")]
     seed: Annotated[int, of("1", "of the random numbers")]

@@ -22,7 +22,7 @@ EFFECT = Effect(
     name="deflector_motion",
     stage="dem",
     criterion="the larger of travel.speed/v (change of the shots' speed) and path/diameter (shift of the place they "
-    "hit, at most 1), path = min(speed·duration, |to − from|) [m] (kinematics)",
-    cost="DEM takes twice as long: the moving mesh's neighbours are searched again",
+    "hit, at most 1), path = min(speed·duration, the travel) [m] (kinematics)",
+    cost="DEM by LIGGGHTS takes twice as long: the moving mesh's neighbours are searched again",
     estimate=_estimate,
 )

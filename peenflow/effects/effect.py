@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from peenflow.case.model import Case
 from peenflow.dent import Dent
 from peenflow.records.material import Material
-from peenflow.scene import ShotProperties
+from peenflow.scene import ShotProperties, Thrown
 
 
 @dataclass(frozen=True)
@@ -14,13 +14,16 @@ class Situation:
     """Closed forms of the case alone, so that decisions do not change with what happens to be cached (SI)."""
 
     case: Case
-    shot: ShotProperties
+    shot: ShotProperties  # the largest
+    thrown: Thrown  # scattered as the case has it
     material: Material  # with all its terms
     dent: Dent  # predicted at the case's speed, normal incidence, of the largest shot
     restitution: float  # shot against wall in the DEM: the case's, or the predicted one where it is calibrated
-    depth: float | None  # of the FE patch; None: there is none
+    depth: float  # of the FE patch, or of the unit cell of a single shot
     flight: float | None  # m, from the nozzle to what the shots meet first; None: nothing flies
+    normal_speed: float  # m/s, of the fastest first hits on the target
     slant: float  # tangential over normal speed of the hits, the most oblique ones'
+    repeats: float  # share of the dented area that was dented before
 
 
 @dataclass(frozen=True)

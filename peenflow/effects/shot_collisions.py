@@ -5,19 +5,30 @@ import math
 from peenflow.effects.effect import Effect, Estimate, Situation
 
 
+def meetings(situation: Situation) -> float:
+    """How many rebounding shots a shot meets over its flight, in the densest stream; 0 where nothing flies."""
+    if situation.flight is None:
+        return 0.0
+    e = situation.restitution
+    cross_section = math.pi * situation.thrown.shot.diameter**2
+    return max(
+        situation.thrown.per_second(nozzle) * cross_section * situation.flight * (1 + e)
+        / (e * nozzle.speed * math.pi / 4 * nozzle.diameter**2)
+        for nozzle in situation.case.nozzle
+    )  # fmt: skip
+
+
+def meeting_share(situation: Situation) -> float:
+    """Share of the shots that meet at least one."""
+    return -math.expm1(-meetings(situation))
+
+
 def _estimate(situation: Situation) -> Estimate:
     if situation.flight is None:
         return Estimate(None, "no flight in this case")
-    case, e = situation.case, situation.restitution
-    cross_section = math.pi * situation.shot.diameter**2
-    meetings = max(
-        situation.shot.per_second(nozzle) * cross_section * situation.flight * (1 + e)
-        / (e * nozzle.speed * math.pi / 4 * nozzle.diameter**2)
-        for nozzle in case.nozzle
-    )  # fmt: skip
-    share = 1 - math.exp(-meetings)
     return Estimate(
-        share, f"{meetings:.2g} meetings of a shot with rebounding ones over {situation.flight * 1e3:.0f} mm"
+        meeting_share(situation),
+        f"{meetings(situation):.2g} meetings of a shot with rebounding ones over {situation.flight * 1e3:.0f} mm",
     )
 
 

@@ -49,6 +49,8 @@ def resume(solver: Solver, path: Path) -> bool:
     if str(saved.get("identity")) != identity(solver.deck, solver.threads):
         return False
     state = solver.state
+    if not _fits(saved, solver):
+        return False
     for name in ARRAYS:
         setattr(state, name, saved[name])
     for name, value in zip(SCALARS, saved["scalars"], strict=True):
@@ -62,3 +64,22 @@ def resume(solver: Solver, path: Path) -> bool:
     state.recorder = ContactRecorder(**{name: saved[f"recorder_{name}"].tolist() for name in vars(ContactRecorder())})
     solver.as_in_motion()
     return True
+
+
+def _fits(saved: dict[str, np.ndarray], solver: Solver) -> bool:
+    """Whether the arrays have the solver's shapes and types: kernels trust them, and a file may come from anyone."""
+    state = solver.state
+    own = {name: getattr(state, name) for name in ARRAYS if name != "active"}
+    own |= {f"ball_{name}": value for name, value in state.balls._asdict().items()}
+    alike = all(
+        name in saved and saved[name].shape == a.shape and saved[name].dtype == a.dtype for name, a in own.items()
+    )
+    active = saved.get("active")
+    blocks = len(solver.model.blocks.nodes)
+    return (
+        alike
+        and active is not None
+        and active.dtype == state.active.dtype
+        and active.ndim == 1
+        and bool(((active >= 0) & (active < blocks)).all())
+    )

@@ -158,6 +158,10 @@ def touching_nodes(first, last, candidates, surface, centre, radius, dt, touched
 def correct(balls, candidates, surface, dt, friction, impulses):
     """Move the live spheres a step and keep the surface out of them.
 
+    A node may be pushed more than once in a step, by friction or by another sphere. What pushes it by J from v₁ to v₂,
+    v* predicted and v₀ before the step, does the work J·½(v₂ + v₀ + (v₁ − v*)): the sum is the node's own, whoever
+    comes first.
+
     Args:
         balls, candidates, surface: spheres, the nodes near them, all nodes.
         dt: the step [s].
@@ -168,6 +172,10 @@ def correct(balls, candidates, surface, dt, friction, impulses):
         (energy lost in normal contact, energy lost in friction) [J].
     """
     lost, rubbed = 0.0, 0.0
+    predicted = np.empty((len(candidates.nodes), 3))
+    for c in range(len(predicted)):
+        for a in range(3):
+            predicted[c, a] = surface.v[candidates.nodes[c], a]
     for s in range(len(balls.radius)):
         impulses[s] = 0.0
         if balls.phase[s] != LIVE:
@@ -198,17 +206,20 @@ def correct(balls, candidates, surface, dt, friction, impulses):
             push = impulse[k] / surface.mass[i]
             direction = allowed(surface, i, normal[k, 0], normal[k, 1], normal[k, 2])
             for a in range(3):
+                earlier = surface.v[i, a] - predicted[touched[k], a]
                 surface.v[i, a] += push * direction[a]
                 surface.u[i, a] += dt * push * direction[a]
-                lost -= impulse[k] * normal[k, a] * 0.5 * (surface.v[i, a] + candidates.before[touched[k], a])
+                mean = 0.5 * (surface.v[i, a] + candidates.before[touched[k], a] + earlier)
+                lost -= impulse[k] * normal[k, a] * mean
         if friction > 0.0:
             for k in range(count):
-                rubbed += rub(s, balls, candidates, surface, touched[k], normal[k], friction * impulse[k], dt, impulses)
+                c, limit = touched[k], friction * impulse[k]
+                rubbed += rub(s, balls, candidates, predicted[c], surface, c, normal[k], limit, dt, impulses)
     return lost, rubbed
 
 
 @kernel
-def rub(s, balls, candidates, surface, c, n, limit, dt, impulses):
+def rub(s, balls, candidates, predicted, surface, c, n, limit, dt, impulses):
     """Coulomb friction between sphere s and candidate c: stick as far as `limit` [N s] allows.
 
     The node alone is brought to rest against the sphere's skin (it weighs a millionth of the sphere); the sphere takes
@@ -230,9 +241,10 @@ def rub(s, balls, candidates, surface, c, n, limit, dt, impulses):
     jx, jy, jz = share * x, share * y, share * z  # on the sphere
     lost = 0.0
     for a, j, skin in ((0, jx, sx), (1, jy, sy), (2, jz, sz)):
+        earlier = surface.v[i, a] - predicted[a]
         surface.v[i, a] -= j / surface.mass[i]
         surface.u[i, a] -= dt * j / surface.mass[i]
-        lost += j * (0.5 * (surface.v[i, a] + candidates.before[c, a]) - skin)
+        lost += j * (0.5 * (surface.v[i, a] + candidates.before[c, a] + earlier) - skin)
         impulses[s, a] += j
     gained = projected(balls.projector[s], jx / mass, jy / mass, jz / mass)
     arm = radius / (0.4 * mass * radius * radius)  # R/I of a solid sphere

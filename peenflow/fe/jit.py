@@ -1,40 +1,19 @@
-"""How the kernels are compiled: cached on disk, stale when any of them changes.
+"""How the solver's kernels are compiled."""
 
-Numba's cache sees changes of the decorated file only, so the cache folder is keyed by the sources of all kernels.
-"""
-
-import hashlib
-import os
 from pathlib import Path
 from typing import Any
 
 import numba
 from numba.extending import overload
 
-
-def _cache_folder() -> Path:
-    digest = hashlib.sha256(numba.__version__.encode())
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.read_bytes())
-    root = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
-    return root / "peenflow" / "kernels" / digest.hexdigest()[:16]
-
-
-numba.config.CACHE_DIR = str(_cache_folder())  # type: ignore[attr-defined]
+from peenflow.jit import kernels_of
 
 # NaN and infinities keep their meaning (no "nnan", "ninf"): the guard looks for them. No "reassoc": with it the process
 # that compiles a kernel and those that load it from the cache differ in the last bits (docs/decisions/lanes.md).
 _ALGEBRA = {"contract", "nsz"}
 
-
-def kernel(function: Any) -> Any:
-    """Compile a sweep over arrays on one thread."""
-    return numba.njit(cache=True, error_model="numpy", fastmath=_ALGEBRA)(function)
-
-
-def threaded(function: Any) -> Any:
-    """Compile a sweep whose outer `prange` runs over threads."""
-    return numba.njit(cache=True, error_model="numpy", fastmath=_ALGEBRA, parallel=True)(function)
+kernel = kernels_of(Path(__file__).parent, fastmath=_ALGEBRA)  # a sweep over arrays on one thread
+threaded = kernels_of(Path(__file__).parent, fastmath=_ALGEBRA, parallel=True)  # its outer `prange` runs over threads
 
 
 def inlined(function: Any) -> Any:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from peenflow.geometry.block import bore_sheet
 from peenflow.records.deck import Placement
 
 
@@ -33,6 +34,14 @@ class BoltHole:
         angle = uv[..., 1] / self.radius
         return np.stack([self.radius * np.cos(angle), self.radius * np.sin(angle), uv[..., 0]], axis=-1)
 
+    def settled(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        on_wall = self.on_surface(self.unroll(points))
+        return on_wall, self.normals(on_wall)
+
+    def on_rim(self, points: np.ndarray, rim: float) -> np.ndarray:
+        z = np.asarray(points)[:, 2]
+        return np.asarray((z < rim) | (z > self.length - rim))
+
     def placement(self, uv: np.ndarray) -> Placement:
         uv = np.asarray(uv, float)
         c, s = np.cos(uv[1] / self.radius), np.sin(uv[1] / self.radius)
@@ -44,3 +53,11 @@ class BoltHole:
         around = 2 * np.pi * self.radius
         apart[..., 1] -= around * np.round(apart[..., 1] / around)
         return apart
+
+    def held_inside(self, centres: np.ndarray, size: tuple[float, float]) -> np.ndarray:
+        centres = np.array(centres, float)
+        centres[..., 0] = np.clip(centres[..., 0], size[0] / 2, self.length - size[0] / 2)
+        return centres
+
+    def sheet(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return bore_sheet(uv, self.radius)

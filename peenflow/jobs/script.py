@@ -13,6 +13,7 @@ from peenflow.errors import InputError
 
 # Directives are read by the scheduler, not by a shell that would honour quotes: only harmless characters may go there.
 _NAME = re.compile(r"[\w.@:+-]+", re.ASCII)
+_MODULE = re.compile(r"\w[\w.+-]*(?:/\w[\w.+-]*)*", re.ASCII)  # found on the site's paths; never a file to run
 _CLOCK = re.compile(r"(?:(\d+)-)?(\d+):(\d\d):(\d\d)")
 _MEMORY = re.compile(r"(\d+(?:\.\d+)?) ?([MGT])i?B?", re.IGNORECASE)
 
@@ -56,6 +57,12 @@ def render(job: Job, allocation: Allocation, scheduler: Scheduler) -> str:
         if value is not None and not _NAME.fullmatch(value):
             raise InputError(
                 f"[hpc] {key} is {value!r}, which no scheduler takes: write letters, digits and _ . @ : + - only."
+            )
+    for module in allocation.modules:
+        if not _MODULE.fullmatch(module):
+            raise InputError(
+                f"[hpc] modules has {module!r}, which is no module's name: write it like gcc/13.2, neither a path nor "
+                "an option."
             )
     if re.search(r'[\x00-\x1f"\\]', str(job.out)):
         raise InputError(

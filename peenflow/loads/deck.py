@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from peenflow.geometry.block import quad_areas
+from peenflow.geometry.block import nodal_areas
 from peenflow.records.deck import FarField, Roller
 from peenflow.records.target import Patch
 
@@ -18,15 +18,11 @@ def rollers(patch: Patch, symmetric_sides: bool, supported_bottom: bool) -> tupl
 
 def far_field(patch: Patch) -> FarField:
     """The body behind the patch's bottom."""
-    nodes = patch.node_sets[BOTTOM]
-    lowest = patch.hexes[patch.layer == patch.layer.max()]
-    quads = lowest[:, :4]  # VTK order: the lower face comes first
-    area = np.bincount(quads.ravel(), np.repeat(quad_areas(patch.nodes, quads) / 4, 4), minlength=len(patch.nodes))
     return FarField(
         name=BOTTOM,
-        nodes=nodes,
+        nodes=patch.node_sets[BOTTOM],
         normals=patch.normals[BOTTOM],
-        area=area[nodes],
+        area=nodal_areas(patch, BOTTOM),
         distance=_depth(patch),
     )
 

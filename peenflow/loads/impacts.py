@@ -6,7 +6,7 @@ import numpy as np
 
 from peenflow.case.impacts_csv import ImpactTable
 from peenflow.errors import RunError
-from peenflow.geometry import BoltHole, Surface
+from peenflow.geometry import Surface
 from peenflow.records.contacts import Contacts
 from peenflow.records.impacts import Impacts
 
@@ -20,7 +20,15 @@ class Rules:
     """Which hits are no impacts (SI)."""
 
     min_normal_speed: float  # slower approaches leave no dent worth counting
-    rim: float  # nearer to a hole's end, the edge's normal is not the wall's: a contact radius
+    rim: float  # nearer to where the surface ends, an edge's normal is not the surface's: a contact radius
+
+
+@dataclass(frozen=True)
+class Samples:
+    """One row a shot and sampling time on the target, by shot, then time."""
+
+    row: np.ndarray  # (n,) of the contacts: of several facets, the one that pushes hardest
+    force: np.ndarray  # (n, 3) N, on the shot, facets summed; NaN where the table has none
 
 
 @dataclass(frozen=True)
@@ -38,44 +46,39 @@ class _Hits:
 def from_contacts(contacts: Contacts, surface: Surface, rules: Rules) -> Impacts:
     """Join the rows of one shot on the target that follow each other into impacts, and sift them by the rules.
 
-    Rows of one shot at one time are one sample that touches several facets: their forces add, as the engine adds
-    them. An impact takes its velocity from its first row (of several facets, the one that pushes hardest) and its
-    place from the row of its largest force, put onto the true surface; tensile samples (an engine's damping pulls
-    at separating shots) count as no force.
+    An impact takes its velocity from its first row and its place from the row of its largest force, put onto the true
+    surface.
 
     Args:
-        contacts: rows of all surfaces.
+        contacts: rows of all surfaces. Where both its interval and its time step are 0, each row is a hit.
         surface: of the target; gives normals and places free of the facets' chords.
         rules: which hits are dropped, and counted.
 
     Raises:
         RunError: no row on the target.
     """
-    rows = _rows_on_target(contacts)
+    rows = rows_on_target(contacts)
     if not rows.size:
         raise RunError(
             "No shot touched the target. Aim [[nozzle]] at it, lengthen [exposure] duration or mend [deflector] travel."
         )
-    shot, t = contacts.shot[rows], contacts.t[rows]
-    gap = max(STEPS_APART * contacts.time_step, SAMPLES_APART * contacts.interval) * (1 + 1e-9)
-    starts_impact = _starts(shot, t, gap)
-    starts_sample = starts_impact | _starts(shot, t, 0.0)
-    first = rows[starts_impact]
-    samples = rows[starts_sample]
-    strength = _strength(contacts, surface, rows, starts_sample)
-    hardest = _first_of_largest(strength, (np.cumsum(starts_impact) - 1)[starts_sample])
+    samples = remove_edge_doubles(contacts, rows)
+    owner = join_rows(contacts, samples)
+    first = samples.row[np.searchsorted(owner, np.arange(owner[-1] + 1))]
+    force = _push(samples.force, surface.settled(contacts.point[first])[1][owner])
+    hardest = _first_of_largest(np.nan_to_num(force), owner)
     hits = _Hits(
         t=contacts.t[first],
-        point=contacts.point[samples[hardest]],
+        point=contacts.point[samples.row[hardest]],
         velocity=contacts.velocity[first],
-        peak_force=strength[hardest],
+        peak_force=force[hardest],
         diameter=contacts.diameter[first],
         shot=contacts.shot[first],
     )
     counts = {
         "rows": len(rows),
-        "merged_rows": len(samples) - len(first),
-        "duplicates_removed": len(rows) - len(samples),
+        "merged_rows": len(samples.row) - len(first),
+        "duplicates_removed": len(rows) - len(samples.row),
     }
     return _sifted(hits, surface, rules, counts)
 
@@ -94,12 +97,33 @@ def from_table(table: ImpactTable, surface: Surface, diameter: float, rules: Rul
     return _sifted(hits, surface, rules, {"rows": number, "merged_rows": 0, "duplicates_removed": 0})
 
 
-def _rows_on_target(contacts: Contacts) -> np.ndarray:
+def rows_on_target(contacts: Contacts) -> np.ndarray:
     """Row numbers by shot, then time, then falling force."""
     rows = np.flatnonzero(contacts.surface == contacts.surfaces.index(TARGET))
-    force = np.linalg.norm(contacts.force[rows], axis=1)
+    force = np.nan_to_num(np.linalg.norm(contacts.force[rows], axis=1))
     order: np.ndarray = rows[np.lexsort((-force, contacts.t[rows], contacts.shot[rows]))]
     return order
+
+
+def remove_edge_doubles(contacts: Contacts, rows: np.ndarray) -> Samples:
+    """One row of those that an edge between facets doubled: rows of one shot at one time are one contact.
+
+    Their forces add, as the engine adds them; of place and velocity, those of the facet that pushes hardest are kept.
+    (The method's paper keeps one of the rows, which loses the others' force.)
+
+    Args:
+        contacts: the rows of all surfaces.
+        rows: `rows_on_target` of it.
+    """
+    starts = np.flatnonzero(_starts(contacts.shot[rows], contacts.t[rows], 0.0))
+    return Samples(rows[starts], np.add.reduceat(contacts.force[rows], starts, axis=0))
+
+
+def join_rows(contacts: Contacts, samples: Samples) -> np.ndarray:
+    """Impact (n,) from 0 of each sample: one impact spans the outputs of a shot that follow each other."""
+    gap = max(STEPS_APART * contacts.time_step, SAMPLES_APART * contacts.interval) * (1 + 1e-9)
+    owner: np.ndarray = np.cumsum(_starts(contacts.shot[samples.row], contacts.t[samples.row], gap)) - 1
+    return owner
 
 
 def _starts(shot: np.ndarray, t: np.ndarray, gap: float) -> np.ndarray:
@@ -107,12 +131,10 @@ def _starts(shot: np.ndarray, t: np.ndarray, gap: float) -> np.ndarray:
     return np.concatenate([[True], (np.diff(shot) != 0) | (np.diff(t) > gap)])
 
 
-def _strength(contacts: Contacts, surface: Surface, rows: np.ndarray, starts_sample: np.ndarray) -> np.ndarray:
-    """Force of each sample [N], facets summed; 0 where it pulls the shot to the wall."""
-    starts = np.flatnonzero(starts_sample)
-    force = np.add.reduceat(contacts.force[rows], starts, axis=0)
-    push = np.einsum("ij,ij->i", force, surface.normals(contacts.point[rows[starts]]))
-    return np.where(push > 0, np.linalg.norm(force, axis=1), 0.0)
+def _push(force: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """Size (n,) [N] of forces (n, 3) on a shot; 0 where they pull it to the wall, as an engine's damping does."""
+    pulls = np.einsum("ij,ij->i", force, normal) <= 0
+    return np.where(pulls, 0.0, np.linalg.norm(force, axis=1))
 
 
 def _first_of_largest(values: np.ndarray, owner: np.ndarray) -> np.ndarray:
@@ -121,20 +143,11 @@ def _first_of_largest(values: np.ndarray, owner: np.ndarray) -> np.ndarray:
     return order[np.searchsorted(owner, np.arange(owner[-1] + 1))]
 
 
-def _on_rim(points: np.ndarray, surface: Surface, rim: float) -> np.ndarray:
-    """Whether points (n, 3) lie within `rim` [m] of a hole's ends, or beyond them."""
-    if not isinstance(surface, BoltHole):
-        return np.zeros(len(points), bool)
-    z = points[:, 2]
-    return np.asarray((z < rim) | (z > surface.length - rim))
-
-
 def _sifted(hits: _Hits, surface: Surface, rules: Rules, counts: dict[str, int]) -> Impacts:
     """Hits off the rims that approach the true surface fast enough, by time; their place on the patch is still open."""
-    point = surface.on_surface(surface.unroll(hits.point))
-    normal = surface.normals(point)
+    point, normal = surface.settled(hits.point)
     normal_speed = -np.einsum("ij,ij->i", hits.velocity, normal)
-    rim = _on_rim(hits.point, surface, rules.rim)
+    rim = surface.on_rim(hits.point, rules.rim)
     hard = np.flatnonzero((normal_speed >= rules.min_normal_speed) & (normal_speed > 0) & ~rim)
     kept = hard[np.argsort(hits.t[hard], kind="stable")]
     speed = np.linalg.norm(hits.velocity[kept], axis=1)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from peenflow.geometry import BoltHole, Surface
+from peenflow.geometry import Surface
 from peenflow.records.impacts import Impacts
 
 HARD = 0.5  # share of the fastest approach; softer hits have no say in where the patch goes
@@ -37,21 +37,13 @@ def densest(impacts: Impacts, room: Room) -> np.ndarray:
     surface = room.surface
     hard = impacts.normal_speed >= HARD * impacts.normal_speed.max()
     uv, weight = surface.unroll(impacts.point[hard]), impacts.normal_speed[hard] ** 2
-    candidates = inside_part(uv, surface, room.size)
+    candidates = surface.held_inside(uv, room.size)
     borne = [
         within(surface.separation(uv[None], some[:, None]), room.bearing) @ weight
         for some in np.split(candidates, range(_CHUNK, len(candidates), _CHUNK))
     ]
     best: np.ndarray = candidates[int(np.argmax(np.concatenate(borne)))]
     return best
-
-
-def inside_part(centres: np.ndarray, surface: Surface, size: tuple[float, float]) -> np.ndarray:
-    """Centres (…, 2) [m] moved along a hole so far that the patch does not stand out of its ends."""
-    centres = np.array(centres, float)
-    if isinstance(surface, BoltHole):
-        centres[..., 0] = np.clip(centres[..., 0], size[0] / 2, surface.length - size[0] / 2)
-    return centres
 
 
 def within(apart: np.ndarray, size: tuple[float, float]) -> np.ndarray:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from peenflow.loads.placement import HARD
+from peenflow.loads.zones import nearest_nodes
 from peenflow.records.calibration import Calibration, SingleHit
 from peenflow.records.deck import Placement, PressureLoads
 from peenflow.records.impacts import Impacts
@@ -81,18 +82,6 @@ def fe_forces(impacts: Impacts, table: LookUpTable) -> np.ndarray:
     return np.where(impacts.peak_force > 0, scaled, table.forces(impacts))
 
 
-def nearest_nodes(points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Number of the node (n, 3) nearest to each point (p, 3).
-
-    Nodes are sorted by x, then y, then z, as in the paper, and each search looks at a strip of x only: on a patch
-    a strip holds a few hundred nodes, so that a k-d tree would bring a dependency and no time.
-    """
-    order = np.lexsort(nodes.T[::-1])
-    x = nodes[order, 0]
-    start = (x[-1] - x[0]) / np.sqrt(len(x))
-    return np.array([order[_nearest_in_strip(point, nodes[order], x, start)] for point in points])
-
-
 def pressure_loads(impacts: Impacts, placement: Placement, patch: Patch, calibration: Calibration) -> PressureLoads:
     """The impacts on the patch as pressures that follow the surface, centred on its nearest nodes.
 
@@ -124,15 +113,6 @@ def pressure_loads(impacts: Impacts, placement: Placement, patch: Patch, calibra
 def _in_proportion(x: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
     """`values` at x, both rising from 0: between the `known`, beyond the last in proportion to x."""
     return np.asarray(np.interp(x, known, values) * np.maximum(x / known[-1], 1.0))
-
-
-def _nearest_in_strip(point: np.ndarray, nodes: np.ndarray, x: np.ndarray, width: float) -> int:
-    """Widen the strip around the point's x until the nearest node in it is nearer than the strip's edge."""
-    low, high = np.searchsorted(x, [point[0] - width, point[0] + width])
-    distance = np.linalg.norm(nodes[low:high] - point, axis=1)
-    if high - low == len(x) or (distance.size and distance.min() <= width):
-        return int(low + np.argmin(distance))
-    return _nearest_in_strip(point, nodes, x, 2 * width)
 
 
 def _history(hit: SingleHit) -> tuple[np.ndarray, np.ndarray]:

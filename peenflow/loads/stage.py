@@ -11,7 +11,7 @@ from peenflow.case.accuracy import MARGIN
 from peenflow.case.impacts_csv import ImpactTable, read_impacts
 from peenflow.case.patch_centre import stated_centre
 from peenflow.errors import RunError
-from peenflow.geometry import BoltHole, Surface
+from peenflow.geometry import Surface
 from peenflow.loads.deck import far_field, rollers
 from peenflow.loads.groups import groups
 from peenflow.loads.impacts import Rules, from_contacts, from_table
@@ -62,6 +62,9 @@ class Inputs:
     boundary: Literal["far-field", "fixed"]
     time_step: float
     relaxation: float
+    hourglass: float
+    precision: Literal["float64", "float32"]
+    active_radius: float  # m
 
 
 def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
@@ -70,20 +73,19 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
     Raises:
         InputError: the table of impacts cannot be read.
     """
-    case, knobs, size = scene.case, scene.knobs, scene.case.target.patch
-    if scene.surface is None or size is None or upstream.target is None:
+    case, knobs, patch = scene.case, scene.knobs, scene.case.target.patch
+    if scene.surface is None or patch is None or upstream.target is None:
         return Skip("a single shot has no impacts to translate")
     given = case.impacts
     hits = read_impacts(scene.directory / given.file, scene.surface) if given else upstream.contacts
     if hits is None:
         return Skip("there are no contacts")
-    across = size.arc if isinstance(scene.surface, BoltHole) else size.width
     return Inputs(
         title=case.title,
         hits=hits,
         patch=upstream.target.patch,
         surface=scene.surface,
-        size=(size.length, across if across is not None else size.length),
+        size=patch.size,
         centre=stated_centre(case),
         shot_diameter=scene.shot.diameter,
         shot_density=scene.shot.density,
@@ -100,6 +102,9 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
         boundary=knobs.boundary,
         time_step=knobs.time_step,
         relaxation=knobs.relaxation,
+        hourglass=knobs.hourglass,
+        precision=knobs.precision,
+        active_radius=knobs.active_radius,
     )
 
 
@@ -120,7 +125,7 @@ def run(inputs: Inputs, workdir: Path, progress: Progress) -> Translation:
         bar.update(3)
     progress.note(
         f"{len(impacts.t)} impacts from {impacts.rows} rows ({impacts.slow_dropped} slower than "
-        f"{impacts.min_normal_speed:.3g} m/s and {impacts.rim_dropped} on the rims dropped), "
+        f"{impacts.min_normal_speed:.3g} m/s and {impacts.rim_dropped} on the surface's rims dropped), "
         f"{int(impacts.on_patch.sum())} on the patch in {impacts.groups} groups"
     )
     return translation
@@ -145,8 +150,8 @@ def _impacts(inputs: Inputs) -> Impacts:
         raise RunError(
             f"Of the impacts on the target, {impacts.slow_dropped} are slower than {inputs.min_normal_speed:.3g} m/s "
             "along the surface's normal and would leave no dent worth counting, and "
-            f"{impacts.rim_dropped} are on the hole's rims; none is left. Lower [accuracy] min_normal_speed, or shoot "
-            "faster or steeper, or farther into the hole."
+            f"{impacts.rim_dropped} are on its rims; none is left. Lower [accuracy] min_normal_speed, or shoot "
+            "faster or steeper, or farther from where the surface ends."
         )
     return impacts
 
@@ -205,6 +210,9 @@ def _controls(inputs: Inputs, impacts: Impacts, depth: float) -> Controls:
         title=inputs.title,
         end_time=float((impacts.t_start[impacts.on_patch] + delay).max()),
         time_step_share=inputs.time_step,
+        hourglass_stiffness=inputs.hourglass,
+        precision=inputs.precision,
+        active_radius=inputs.active_radius if inputs.load == "impact" else 0.0,
         relaxation=inputs.relaxation,
         relaxation_time=RELAXATION_TIME * depth / inputs.material.c_s,
         checkpoint_steps=500,

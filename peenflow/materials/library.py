@@ -6,9 +6,9 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from peenflow.case.model import Constants, JohnsonCookConstants
+from peenflow.case.model import Constants, JohnsonCookConstants, KinematicHardeningConstants, Section
 from peenflow.errors import InputError
-from peenflow.records.material import Material, RateHardening, ThermalSoftening
+from peenflow.records.material import KinematicHardening, Material, RateHardening, ThermalSoftening
 
 ROOM = 293.15  # K, T0 of sets that name none
 TAYLOR_QUINNEY = 0.9  # of metals at high rates, as in Johnson and Cook (1983)
@@ -28,17 +28,25 @@ def nearest(name: str, known: list[str]) -> str:
     return f"did you mean {' or '.join(close)}?" if close else f"known: {', '.join(known)}"
 
 
-def material(name: str, constants: Constants, johnson_cook: JohnsonCookConstants, initial: float = ROOM) -> Material:
+def material(
+    name: str,
+    constants: Constants,
+    johnson_cook: JohnsonCookConstants,
+    initial: float = ROOM,
+    kinematic: KinematicHardeningConstants = KinematicHardeningConstants(),  # noqa: B008 (frozen)
+) -> Material:
     """The material `name` with all its effects, the case's constants over the library's.
 
     A name the library does not know is a set of the case's own, if the case brings density, young, poisson, A, B, n.
-    The rate term is None where C is 0 or unknown, the thermal term where m, melt or heat_capacity are unknown.
+    The rate term is None where C is 0 or unknown, the thermal term where m, melt or heat_capacity are unknown, the
+    backstress where there is no set for it.
 
     Args:
         name: of the set.
         constants: the case's own elastic and thermal constants.
         johnson_cook: the case's own Johnson–Cook constants.
         initial: temperature of the part before peening [K].
+        kinematic: the case's own constants of the backstress.
 
     Raises:
         InputError: an unknown name without constants of its own, or constants that are missing.
@@ -57,14 +65,11 @@ def material(name: str, constants: Constants, johnson_cook: JohnsonCookConstants
         n=plastic["n"],
         rate=_rate(plastic),
         thermal=_thermal(elastic, plastic, initial),
+        kinematic=_kinematic(_merged(KinematicHardeningConstants, row.get("kinematic_hardening", {}), kinematic)),
     )
 
 
-def _merged(
-    model: type[Constants] | type[JohnsonCookConstants],
-    row: dict[str, Any],
-    own: Constants | JohnsonCookConstants,
-) -> dict[str, float]:
+def _merged(model: type[Section], row: dict[str, Any], own: Section) -> dict[str, float]:
     """The row in SI with what `own` sets in its place; constants that neither has are left out."""
     return model.model_validate(row).model_dump(exclude_none=True) | own.model_dump(exclude_none=True)
 
@@ -98,3 +103,17 @@ def _thermal(elastic: dict[str, float], plastic: dict[str, float], initial: floa
         taylor_quinney=elastic.get("taylor_quinney", TAYLOR_QUINNEY),
         initial=initial,
     )
+
+
+def _kinematic(constants: dict[str, float]) -> KinematicHardening | None:
+    """The backstress, if the set is complete.
+
+    Raises:
+        InputError: one of the two constants is missing.
+    """
+    if not constants:
+        return None
+    if len(constants) == 1:
+        missing = ({"modulus", "recall"} - set(constants)).pop()
+        raise InputError(f"the backstress needs two constants; give target.kinematic_hardening.{missing} too")
+    return KinematicHardening(**constants)

@@ -7,21 +7,26 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+import numpy as np
+
 from peenflow.case import units
-from peenflow.case.model import Constants, Shot
+from peenflow.case.model import Constants, Shot, SizeSpread
 from peenflow.errors import InputError
 from peenflow.materials.library import nearest
-from peenflow.scene import ShotProperties
+from peenflow.scene import ShotProperties, Thrown
+
+NODES = 5  # sizes that stand for a normal distribution; the outermost, 2.86 σ off the mean, are 1.1 % of the shots each
 
 
 @dataclass(frozen=True)
 class ShotMaterial:
-    """Elastic constants of a shot (SI), and the family of sizes that are made of it (None: its own)."""
+    """Constants of a shot (SI), and the family of sizes that are made of it (None: its own)."""
 
     density: float
     young: float
     poisson: float
     family: str | None
+    yield_stress: float | None  # Pa; None: it breaks rather than yields, or the table does not know
 
 
 @dataclass(frozen=True)
@@ -39,7 +44,7 @@ def _tables() -> dict[str, dict[str, dict[str, Any]]]:
 
 
 @cache
-def sizes() -> dict[str, ShotSize]:
+def catalogue() -> dict[str, ShotSize]:
     """Every size by its name, like CW14, S230, AGB35, Z425."""
     table = {}
     for prefix, row in _tables()["size"].items():
@@ -58,8 +63,8 @@ def size(name: str) -> ShotSize:
         InputError: no such size; the nearest ones are named.
     """
     plain = name.upper().replace("-", "").replace(" ", "")
-    if plain in sizes():
-        return sizes()[plain]
+    if plain in catalogue():
+        return catalogue()[plain]
     raise InputError(f"unknown shot size {name!r}; {_offer(plain)}")
 
 
@@ -67,7 +72,7 @@ def _offer(name: str) -> str:
     """The sizes nearest in number where the letters are known, else nearest in writing."""
     match = re.fullmatch(r"([A-Z]+)(\d+)", name)
     if match is None or match[1] not in _tables()["size"]:
-        return nearest(name, list(sizes()))
+        return nearest(name, list(catalogue()))
     prefix, number = match[1], int(match[2])
     numbers = sorted(_tables()["size"][prefix]["numbers"], key=lambda k: abs(k - number))
     return f"did you mean {' or '.join(f'{prefix}{k}' for k in numbers[:3])}?"
@@ -88,7 +93,8 @@ def shot_material(name: str, own: Constants) -> ShotMaterial:
         raise InputError(
             f"unknown shot material {name!r}; {nearest(name, known)} (one of your own needs {', '.join(missing)})"
         )
-    return ShotMaterial(values["density"], values["young"], values["poisson"], row.get("family"))
+    strength = units.to_si(row["yield_stress"], "Pa") if "yield_stress" in row else None
+    return ShotMaterial(values["density"], values["young"], values["poisson"], row.get("family"), strength)
 
 
 def properties(shot: Shot) -> ShotProperties:
@@ -100,3 +106,30 @@ def properties(shot: Shot) -> ShotProperties:
     diameter = shot.diameter if shot.diameter is not None else size(shot.size or "").diameter
     material = shot_material(shot.material, shot.constants)
     return ShotProperties(diameter, material.density, material.young, material.poisson)
+
+
+def sizes(diameter: float, spread: SizeSpread | None) -> tuple[np.ndarray, np.ndarray]:
+    """A few sizes that stand for all that are thrown: diameters (k,) [m], rising, and their shares (k,) by number.
+
+    A normal distribution becomes the `NODES` nodes of its Gauss–Hermite quadrature (Abramowitz and Stegun, 25.4.46).
+    So every mean of a power of the diameter up to the ninth is that of the distribution: mean and standard deviation,
+    dent areas (2nd), mass (3rd).
+
+    Args:
+        diameter: mean [m].
+        spread: absent means that all are alike: one size of share 1.
+    """
+    if spread is None:
+        return np.array([diameter]), np.ones(1)
+    nodes, weights = np.polynomial.hermite_e.hermegauss(NODES)
+    return diameter + spread.sigma * nodes, weights / weights.sum()
+
+
+def thrown(shot: Shot, spread: SizeSpread | None) -> Thrown:
+    """The shots that nozzles throw, scattered as `spread` says.
+
+    Raises:
+        InputError: unknown size or material.
+    """
+    mean = properties(shot)
+    return Thrown(mean, *sizes(mean.diameter, spread))

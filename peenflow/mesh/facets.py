@@ -9,7 +9,7 @@ from types import ModuleType
 import numpy as np
 
 from peenflow.errors import InputError
-from peenflow.mesh.gmsh_session import gmsh_model
+from peenflow.geometry.gmsh_session import gmsh_model
 from peenflow.records.target import Facets
 
 CHORD = 1.35  # shot diameters: least chord of a facet around a bore

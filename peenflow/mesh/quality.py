@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from peenflow.mesh.gmsh_session import gmsh_model
+from peenflow.geometry.gmsh_session import gmsh_model
 from peenflow.records.target import Patch
 
 _HEXAHEDRON = 5  # gmsh's element type, its corners in VTK's order

@@ -10,8 +10,8 @@ from peenflow.case.impacts_csv import read_impacts
 from peenflow.case.patch_centre import stated_centre
 from peenflow.errors import RunError
 from peenflow.files import written_whole
-from peenflow.geometry import BoltHole, Surface
-from peenflow.geometry.block import build_block
+from peenflow.geometry import BoltHole, CadSurface, Plate, Surface
+from peenflow.geometry.block import build_under
 from peenflow.geometry.grading import layers
 from peenflow.mesh import grid
 from peenflow.mesh.facets import bore_facets, plate_facets
@@ -51,8 +51,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
     surface, patch = scene.surface, scene.case.target.patch
     if surface is None or patch is None:
         return Skip("a single shot needs no part: calibrate meshes its own unit cell")
-    across = patch.arc if isinstance(surface, BoltHole) else patch.width
-    size = (patch.length, across if across is not None else patch.length)
+    size = patch.size
     nozzles = bool(scene.case.nozzle)
     return Inputs(
         surface=surface,
@@ -63,7 +62,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
         fine_half=_fine_half(scene, size),
         shot_diameter=scene.shot.diameter,
         dem=nozzles,
-        thrown_at=_thrown_at(scene, size) if nozzles and not isinstance(surface, BoltHole) else None,
+        thrown_at=_thrown_at(scene, size) if nozzles and isinstance(surface, Plate) else None,
     )
 
 
@@ -139,13 +138,14 @@ def _patch(inputs: Inputs) -> Patch:
     else:
         lines = [grid.graded_lines(s, h, f) for s, f in zip(inputs.size, inputs.fine_half, strict=True)]
     thicknesses = layers(h, inputs.fine_depth, inputs.depth, grid.DEPTH_GROWTH)
-    bend_radius = inputs.surface.radius if isinstance(inputs.surface, BoltHole) else None
-    return build_block(lines[0], lines[1], thicknesses, bend_radius)
+    return build_under(inputs.surface.sheet, lines[0], lines[1], thicknesses)
 
 
 def _facets(inputs: Inputs) -> Facets | None:
     if isinstance(inputs.surface, BoltHole) and inputs.dem:
         return bore_facets(inputs.surface.radius, inputs.surface.length, inputs.shot_diameter)
+    if isinstance(inputs.surface, CadSurface) and inputs.dem:
+        return Facets(inputs.surface.triangles)
     if inputs.thrown_at is not None:
         return plate_facets(np.array(inputs.thrown_at[:2]), np.array(inputs.thrown_at[2:]), inputs.shot_diameter)
     return None

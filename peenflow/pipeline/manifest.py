@@ -6,7 +6,9 @@ import json
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
+
+from pydantic import TypeAdapter
 
 from peenflow.digest import Leaf
 from peenflow.files import write_text_whole
@@ -20,7 +22,6 @@ class Mark:
     """How a result file was left."""
 
     size: int
-    mtime_ns: int
     sha256: str
 
 
@@ -40,6 +41,9 @@ class Manifest:
     files: Mapping[str, Mark] = dataclasses.field(default_factory=dict)  # by path relative to DIR
 
 
+_MANIFEST = TypeAdapter(Manifest)
+
+
 def _path(out: Path, stage: str) -> Path:
     return out / ".peenflow" / f"{stage}.json"
 
@@ -53,13 +57,10 @@ def write(manifest: Manifest, out: Path) -> None:
 def read(out: Path, stage: str) -> Manifest | None:
     """The stored manifest; None if there is none or it is not one of this version (the stage then runs again)."""
     try:
-        content: dict[str, Any] = json.loads(_path(out, stage).read_text())
-        content["inputs"] = {name: Leaf(**leaf) for name, leaf in content["inputs"].items()}
-        content["files"] = {name: Mark(**mark) for name, mark in content["files"].items()}
-        content["cost"] = Cost(**content["cost"])
-        return Manifest(**content)
-    except (OSError, ValueError, TypeError, KeyError, AttributeError):
+        found = _MANIFEST.validate_json(_path(out, stage).read_bytes())
+    except (OSError, ValueError):
         return None
+    return found if found.stage == stage else None
 
 
 def marks(out: Path, patterns: Iterable[str]) -> dict[str, Mark]:
@@ -69,7 +70,11 @@ def marks(out: Path, patterns: Iterable[str]) -> dict[str, Mark]:
 
 
 def damage(out: Path, files: Mapping[str, Mark]) -> str:
-    """Which of the files is not as it was left, in words; empty if all are. Reads a file only if it was touched."""
+    """Which of the files is not as it was left, in words; empty if all are.
+
+    Contents are compared, not times: a clock set back, or a file system that knows whole seconds only, would let a
+    changed file look untouched. The stages' own inputs are read and hashed for their keys at no less cost.
+    """
     return next((text for name, mark in files.items() if (text := _damage(out / name, name, mark))), "")
 
 
@@ -80,14 +85,13 @@ def _damage(path: Path, name: str, mark: Mark) -> str:
         return f"{name} is missing"
     if found.st_size != mark.size:
         return f"{name} has {found.st_size} bytes instead of {mark.size}"
-    if found.st_mtime_ns != mark.mtime_ns and _sha256(path) != mark.sha256:
+    if _sha256(path) != mark.sha256:
         return f"{name} was changed by someone else"
     return ""
 
 
 def _mark(path: Path) -> Mark:
-    found = path.stat()
-    return Mark(found.st_size, found.st_mtime_ns, _sha256(path))
+    return Mark(path.stat().st_size, _sha256(path))
 
 
 def _sha256(path: Path) -> str:

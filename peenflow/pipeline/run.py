@@ -2,12 +2,15 @@
 
 import dataclasses
 from pathlib import Path
+from typing import Any
 
+from peenflow import machine
 from peenflow.case.model import Case
 from peenflow.console import Console
 from peenflow.errors import InputError
 from peenflow.estimate import estimate
 from peenflow.pipeline import summary
+from peenflow.pipeline.confine import sweep
 from peenflow.pipeline.execute import Outcome, settle
 from peenflow.pipeline.freshness import Finding, assess, examine
 from peenflow.pipeline.lock import locked
@@ -15,7 +18,9 @@ from peenflow.pipeline.stages import STAGES, Records, stage
 from peenflow.pipeline.status import status
 from peenflow.records.deck_files import load_deck
 from peenflow.resolve import resolve
-from peenflow.scene import Skip
+from peenflow.scene import Scene, Skip
+
+WORTH_MEASURING = 20.0  # s, predicted of a run, from which its prediction is worth some seconds of measurement
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,11 +49,11 @@ def run(request: Request, console: Console) -> list[Outcome]:
     """
     forced = STAGES[STAGES.index(stage(request.first)) :] if request.first else ()
     wanted = STAGES[: STAGES.index(stage(request.last)) + 1] if request.last else STAGES
-    scene = resolve(request.case, request.directory)
-    found = estimate(scene)
+    scene, found = _looked_at(request, console)
     predicted = {row["stage"]: row["predicted_wall_s"] for row in found["stages"]}
     records, outcomes = Records(request.out), list[Outcome]()
     with locked(request.out):
+        sweep(request.out)
         summary.write_effective_case(scene, request.out)
         for each in wanted:
             finding = examine(each, scene, records, request.out)
@@ -59,8 +64,23 @@ def run(request: Request, console: Console) -> list[Outcome]:
             if outcome.state != "skipped":
                 records.add(each)
         if wanted == STAGES:
-            summary.write(scene, found["effects"], records, outcomes, request.out)
+            summary.write(scene, found, records, outcomes, request.out)
     return outcomes
+
+
+def _looked_at(request: Request, console: Console) -> tuple[Scene, dict[str, Any]]:
+    """The scene and what it will cost, by this machine's speed, which is measured first where it matters."""
+    wished = request.case.accuracy
+    if wished.budget is not None or wished.target is not None:
+        machine.measured(console)
+    scene = resolve(request.case, request.directory)
+    found = estimate(scene)
+    if sum(row["predicted_wall_s"] for row in found["stages"]) > WORTH_MEASURING and not machine.known().measured:
+        machine.measured(console)
+        found = estimate(scene)
+    if scene.chosen is not None:
+        console.note(scene.chosen)
+    return scene, found
 
 
 def solve_deck(folder: Path, out: Path, console: Console) -> Outcome:
@@ -72,6 +92,7 @@ def solve_deck(folder: Path, out: Path, console: Console) -> Outcome:
     each, deck = stage("solve"), load_deck(folder)
     inputs = each.module().Inputs(deck=deck)
     with locked(out):
+        sweep(out)
         return settle(assess(each, inputs, out), out, console)
 
 

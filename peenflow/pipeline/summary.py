@@ -34,11 +34,14 @@ def ledger(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
     ]
 
 
-def write(scene: Scene, effects: Mapping[str, Any], records: Records, outcomes: Sequence[Outcome], out: Path) -> None:
-    """Merge the report's figures with title, hash, versions, effects (as `check` gives them) and ledger."""
+def write(scene: Scene, checked: Mapping[str, Any], records: Records, outcomes: Sequence[Outcome], out: Path) -> None:
+    """Merge the report's figures with title, hash, versions, what `check` found of effects and limits, and ledger."""
     figures = records.of("report") or {}
     head = {"title": scene.case.title, "case_hash": case_hash(scene), "versions": _versions(records)}
-    write_json(head | figures | {"effects": effects, "ledger": ledger(outcomes)}, out / "summary.json")
+    if "dem" in figures:
+        figures = figures | {"dem": figures["dem"] | {"engine_why": checked["dem"]["engine_why"]}}
+    physics = {name: checked[name] for name in ("effects", "not_modelled", "accuracy")}
+    write_json(head | figures | physics | {"ledger": ledger(outcomes)}, out / "summary.json")
 
 
 def effective_case(scene: Scene) -> dict[str, Any]:

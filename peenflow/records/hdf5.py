@@ -7,6 +7,8 @@ Each dataset carries `unit` and `meaning`, the file its record's name and layout
 """
 
 import dataclasses
+import os
+import re
 import types
 import typing
 from pathlib import Path
@@ -20,22 +22,40 @@ from peenflow.files import written_whole
 from peenflow.records.fields import Quantity, quantities
 
 LAYOUT = 1
+INFLATED = 1100  # B in memory of a byte in the file: more is no data (zlib packs to 1/1032 at best)
+LARGEST = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2  # B, of an array
+KINDS = {"int32": "iu", "int64": "iu", "bool": "b"}  # of numpy, by the declared type; without one any number
 R = TypeVar("R")
+
+_SHAPE = re.compile(r"\(([^)]*)\)(?: (\w+))?")
+_REFUSED = (OSError, KeyError, TypeError, ValueError, AttributeError, RuntimeError, OverflowError, MemoryError)
+"""What h5py raises on damaged files, beside what the checks below do."""
 
 
 def save(record: Any, path: Path) -> None:
-    """Write a record (a frozen dataclass) to `path`, whole or not at all."""
-    with written_whole(path) as partial, h5py.File(partial, "w") as file:
+    """Write a record (a frozen dataclass) to `path`, whole or not at all.
+
+    HDF5 lays the file out in memory: on a disk that fills it would end this process with a segmentation fault.
+
+    Raises:
+        RunError: the disk refuses.
+    """
+    with h5py.File(path.name, "w", driver="core", backing_store=False) as file:
         file.attrs["record"] = type(record).__name__
         file.attrs["layout"] = LAYOUT
         _write(file, record)
+        file.flush()
+        image = file.id.get_file_image()
+    with written_whole(path) as partial:
+        partial.write_bytes(image)
 
 
 def load(cls: type[R], path: Path) -> R:
     """Read a record of class `cls`.
 
     Raises:
-        InputError: no such file, not HDF5, truncated, another record, or an older layout.
+        InputError: no such file, not HDF5, truncated, another record, an older layout, an array of another shape or
+            kind than declared, or one that takes its data from elsewhere.
     """
     try:
         with h5py.File(path, "r") as file:
@@ -46,7 +66,7 @@ def load(cls: type[R], path: Path) -> R:
                     "It was written by another version: remove it and run again."
                 )
             return typing.cast(R, _read(file, cls))
-    except (OSError, KeyError, TypeError, ValueError) as error:
+    except _REFUSED as error:
         raise InputError(f"{path} cannot be read as {cls.__name__}: {error}. Remove it and run again.") from error
 
 
@@ -86,8 +106,23 @@ def _describe(item: h5py.Dataset | h5py.Group, quantity: Quantity) -> None:
 
 def _read(group: h5py.Group, cls: Any) -> Any:
     hints = typing.get_type_hints(cls)
-    values = {f.name: _read_field(group, f.name, hints[f.name]) for f in dataclasses.fields(cls)}
-    return cls(**values)
+    _check_shapes(group, cls)
+    return cls(**{f.name: _read_field(group, f.name, hints[f.name]) for f in dataclasses.fields(cls)})
+
+
+def _check_shapes(group: h5py.Group, cls: Any) -> None:
+    """Before any is read: arrays have the declared shape and kind; one letter is one length throughout the record."""
+    lengths: dict[str, int] = {}
+    for name, declared in quantities(cls).items():
+        found = _SHAPE.fullmatch(declared.shape)
+        if found is None or not isinstance(array := group.get(name), h5py.Dataset):
+            continue
+        axes = [axis.strip() for axis in found[1].split(",") if axis.strip()]
+        fits = len(array.shape) == len(axes) and array.dtype.kind in KINDS.get(found[2] or "", "fiu")
+        for axis, length in zip(axes, array.shape if fits else (), strict=fits):
+            fits = fits and lengths.setdefault(axis, int(axis) if axis.isdigit() else length) == length
+        if not fits:
+            raise ValueError(f"{name} is {array.dtype} of shape {array.shape}, where {declared.shape} is due")
 
 
 def _read_field(group: h5py.Group, name: str, hint: Any) -> Any:
@@ -98,18 +133,38 @@ def _read_field(group: h5py.Group, name: str, hint: Any) -> Any:
         hint = next(a for a in typing.get_args(hint) if a is not type(None))
     origin = typing.get_origin(hint)
     if dataclasses.is_dataclass(hint):
-        return _read(group[name], hint)
+        return _read(_member(group, name), hint)
     if origin is dict:
-        return {key: dataset[()] for key, dataset in group[name].items()} if name in group else {}
+        return {key: _array(_member(group, name), key) for key in group[name]} if name in group else {}
     if origin is tuple:
         return _read_tuple(group, name, typing.get_args(hint)[0])
     if name in group:
-        return group[name][()]
+        return _array(group, name)
     value = group.attrs[name]
     return hint(value) if hint in (int, float, str, bool) else value
 
 
+def _member(group: h5py.Group, name: str) -> Any:
+    """What the group has by that name in this very file: another was not the sender's to show."""
+    if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+        raise ValueError(f"{name} is a link to elsewhere")
+    return group[name]
+
+
+def _array(group: h5py.Group, name: str) -> Any:
+    dataset = _member(group, name)
+    if dataset.external or dataset.is_virtual or dataset.nbytes > INFLATED * dataset.id.get_storage_size():
+        raise ValueError(f"{name} has no data of its own in this file")
+    if dataset.nbytes > LARGEST:
+        raise MemoryError(f"{name} has {dataset.nbytes} bytes, more than half of this machine's memory")
+    return dataset[()]
+
+
 def _read_tuple(group: h5py.Group, name: str, item: Any) -> tuple[Any, ...]:
     if dataclasses.is_dataclass(item):
-        return tuple(_read(group[name][key], item) for key in sorted(group[name])) if name in group else ()
+        return (
+            tuple(_read(_member(_member(group, name), key), item) for key in sorted(group[name]))
+            if name in group
+            else ()
+        )
     return tuple(item(v) for v in group.attrs[name]) if name in group.attrs else ()

@@ -27,7 +27,7 @@ class Impacts:
     rows: Annotated[int, of("1", "contact rows on the target read")]
     merged_rows: Annotated[int, of("1", "rows joined into impacts, beyond one each")]
     duplicates_removed: Annotated[int, of("1", "rows that were a second facet's copy of the same contact")]
-    rim_dropped: Annotated[int, of("1", "impacts on or beyond the rims of a hole, dropped")]
+    rim_dropped: Annotated[int, of("1", "impacts on or beyond where the surface ends (a hole's rims), dropped")]
     slow_dropped: Annotated[int, of("1", "other impacts slower than min_normal_speed, dropped")]
     min_normal_speed: Annotated[float, of("m/s", "the rule's speed")]
     shots_hitting: Annotated[int, of("1", "distinct shots that met the target, slow ones included")]

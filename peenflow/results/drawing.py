@@ -7,6 +7,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -56,12 +57,12 @@ def canvas(width: float, height: float) -> Figure:
 
 
 def save(draw: Callable[[], Figure], path: Path) -> None:
-    """Draw in the common style and write the SVG; dense parts of it are pixels at 150 dpi.
+    """Draw in the common style, whatever a matplotlibrc says, and write the SVG; dense parts are pixels at 150 dpi.
 
     Raises:
         RunError: the disk refuses.
     """
-    with mpl.rc_context(STYLE), written_whole(path) as partial:
+    with style.context(["default", STYLE]), written_whole(path) as partial:
         draw().savefig(partial, format="svg", dpi=150, metadata={"Date": None})
 
 

@@ -54,7 +54,7 @@ IMPACTS: Columns = {
     "on_patch": ("of them on the patch", "", 1, 0),
     "groups": ("groups that start together", "", 1, 0),
     "slow_dropped": ("too slow, dropped", "", 1, 0),
-    "rim_dropped": ("on the hole's rim, dropped", "", 1, 0),
+    "rim_dropped": ("on the surface's rims, dropped", "", 1, 0),
     "min_normal_speed_m_s": ("slowest that counts", "m/s", 1, 1),
     "rows": ("contact rows read", "", 1, 0),
     "merged_rows": ("rows joined into impacts", "", 1, 0),

@@ -12,9 +12,8 @@ from peenflow.results import facts
 from peenflow.results.drawing import Picture
 from peenflow.results.figures import Figures
 from peenflow.results.ledger import Row
-from peenflow.results.limits import Limit
 from peenflow.results.units import Units
-from peenflow.scene import Decision
+from peenflow.scene import Decision, Limit
 from peenflow.templates import environment
 
 LIBRARIES = ("numpy", "numba", "gmsh", "meshio", "pyvista", "matplotlib")
@@ -41,7 +40,7 @@ class Frame:
     subject: str  # one line: what was shot at what
     units: Units
     effects: Mapping[str, Decision]
-    limits: Sequence[Limit]
+    not_modelled: Mapping[str, Limit]
     ledger: Sequence[Row]
     hits: Sequence[Picture]  # of the calibration
     stages: Sequence[Picture]  # of the ledger

@@ -31,7 +31,9 @@ def impact_map(peening: Peening, length: Unit) -> Figure:
     dots = axes.scatter(along, across, c=speed[order], norm=_speeds(peening), s=22, cmap=drawing.SEQUENTIAL, lw=0)
     for corner in _corners(peening, low):
         _outline(axes, corner, high - low, length)
-    axes.set_title(f"{speed.size} impacts; the box is the patch")
+    off = int(np.isnan(at).any(axis=1).sum())
+    beyond = f", {off} of them on faces beyond this map" if off else ""
+    axes.set_title(f"{speed.size} impacts{beyond}; the box is the patch")
     _surface_axes(axes, peening, length)
     figure.colorbar(dots, ax=axes, label="normal speed [m/s]")
     return figure

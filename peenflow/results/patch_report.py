@@ -3,6 +3,7 @@
 from functools import partial
 from pathlib import Path
 
+from peenflow.geometry import CadSurface
 from peenflow.progress import Progress
 from peenflow.results import drawing, patch_plots, profiles, tables, volume
 from peenflow.results.drawing import Picture
@@ -10,6 +11,7 @@ from peenflow.results.evaluation import Evaluation, Peening, peening_figures
 from peenflow.results.facts import number
 from peenflow.results.figures import Figures
 from peenflow.results.page import Story
+from peenflow.results.part_picture import part_picture
 from peenflow.results.render import render, view
 from peenflow.results.units import Unit, Units
 
@@ -28,6 +30,7 @@ def report(
     surface = _surface(peening, units.stress, workdir / "response.vtu", workdir / "report" / "surface.png")
     if isinstance(surface, Picture):
         pictures["stress"].append(surface)
+        pictures["impacts"] = [*_part(peening, workdir / "report" / "part.png"), *pictures["impacts"]]
     else:
         progress.note(f"The peened surface could not be drawn: {surface}. Install libegl1 and report again.")
     story = Story(
@@ -97,6 +100,15 @@ def _surface(peening: Peening, stress: Unit, vtu: Path, picture: Path) -> Pictur
         "The peened surface",
         f"Displacement magnified {seen.magnification:g} times; blue is compression, red is tension.",
     )
+
+
+def _part(peening: Peening, picture: Path) -> list[Picture]:
+    """The whole part, where its surface is more than a map of it shows."""
+    surface = peening.surface
+    if not isinstance(surface, CadSurface) or part_picture(peening, surface, picture) is not None:
+        return []
+    told = "All impacts on the faces that DEM knew, coloured by the speed along the normal; the outline is the patch."
+    return [Picture(picture.name, "Where the shots hit the part", told)]
 
 
 def _locate(peening: Peening, found: Evaluation, length: Unit) -> str | None:

@@ -41,13 +41,11 @@ def extent(patch: Patch) -> tuple[np.ndarray, np.ndarray]:
 
 
 def cell_sizes(patch: Patch) -> np.ndarray:
-    """Lengths (q, 2) [m] of the surface quads along axis 1 and (arc) axis 2.
-
-    Axis 1 is straight on every surface, so that its length is read off the nodes; the other follows from the area.
-    """
-    x = patch.nodes[patch.surface, 0]
-    along = x.max(axis=1) - x.min(axis=1)
-    return np.stack([along, patch.area / along], axis=-1)
+    """Lengths (q, 2) [m] of the surface quads along axis 1 and axis 2: means of opposite sides."""
+    corners = patch.nodes[patch.surface]  # axis 1 leads from the first corner to the second, axis 2 to the fourth
+    sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+    sizes: np.ndarray = (sides[:, :2] + sides[:, 2:]) / 2
+    return sizes
 
 
 def evaluation_square(patch: Patch, area: float | None, shot_diameter: float) -> Square:

@@ -81,8 +81,13 @@ def rounded_up(value: float) -> float:
 
 def render(vtu: Path, picture: Path, seen: View) -> str | None:
     """Draw the patch in `vtu` as the PNG `picture`, in a process of its own; None, or why it could not be drawn."""
+    command = [sys.executable, "-P", "-m", "peenflow.results.render", str(vtu), str(picture), json.dumps(asdict(seen))]
+    return drawn(command, picture)
+
+
+def drawn(command: list[str], picture: Path) -> str | None:
+    """Run a command that draws `picture`; None, or why it could not."""
     picture.unlink(missing_ok=True)
-    command = [sys.executable, "-m", "peenflow.results.render", str(vtu), str(picture), json.dumps(asdict(seen))]
     # without an X server VTK's default window warns before it turns to EGL
     window = {} if "DISPLAY" in os.environ else {"VTK_DEFAULT_OPENGL_WINDOW": "vtkEGLRenderWindow"}
     try:

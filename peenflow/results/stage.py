@@ -17,11 +17,10 @@ from peenflow.results.coverage import DentLaw, calibrated_dents
 from peenflow.results.evaluation import Peening, evaluate
 from peenflow.results.figures import Figures
 from peenflow.results.ledger import Row, draw_ledger
-from peenflow.results.limits import limits
 from peenflow.results.page import Frame, Story
 from peenflow.results.stream import summarise
 from peenflow.results.units import display
-from peenflow.scene import Decision, Scene, ShotProperties, Skip
+from peenflow.scene import Decision, Limit, Scene, ShotProperties, Skip
 
 
 @dataclass(frozen=True)
@@ -32,6 +31,7 @@ class Inputs:
     shot: ShotProperties
     material: Material
     effects: dict[str, Decision]
+    not_modelled: dict[str, Limit]
     area: float | None  # m, [report] area
     units: tuple[str, str]  # of stress and length on pages and plots
     dents: DentLaw  # the closed form's, for a run without calibration
@@ -48,9 +48,10 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
         return Skip("nothing was solved, so there is no result to report")
     return Inputs(
         title=scene.case.title,
-        shot=scene.shot,
+        shot=scene.thrown.shot,
         material=scene.material,
         effects=scene.effects,
+        not_modelled=scene.not_modelled,
         area=scene.case.report.area,
         units=scene.case.report.units,
         dents=DentLaw(np.array([scene.speed]), np.array([scene.dent_radius]), scene.shot.diameter),
@@ -130,7 +131,7 @@ def _frame(inputs: Inputs, directory: Path) -> Frame:
         subject=f"Shot of {diameter} on {inputs.material.name}",
         units=units,
         effects=inputs.effects,
-        limits=limits(inputs.shot, inputs.material, calibration, set(inputs.effects)),
+        not_modelled=inputs.not_modelled,
         ledger=ledger,
         hits=[] if calibration is None else hit_report.pictures(calibration, directory),
         stages=[draw_ledger(ledger, directory)] if ledger else [],

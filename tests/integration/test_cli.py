@@ -102,6 +102,22 @@ def test_check_prints_one_json_document_and_writes_nothing(tmp_path: Path):
     assert sorted(tmp_path.rglob("*")) == before
 
 
+def test_check_lists_every_effect_with_its_numbers():
+    """The bolt hole: gravity and drag are nothing there; over 2 m light glass loses most of its speed."""
+    found = json.loads(peenflow("check", "cases/bolt-hole", "--json").stdout)
+    effects = found["effects"]
+    assert len(effects) == 12
+    assert all(made.keys() == {"state", "estimate", "threshold", "why", "cost"} for made in effects.values())
+    assert all(0 <= made["estimate"] <= 1 for name, made in effects.items() if not name.endswith("_spread"))
+    assert [effects[name]["state"] for name in ("gravity", "air_drag")] == ["auto: off"] * 2
+    assert [effects[name]["state"] for name in ("deflector_motion", "shot_collisions")] == ["auto: on"] * 2
+    assert {"shot_elasticity", "shot_yielding", "carrier_air"} <= found["not_modelled"].keys()
+    far = [f"nozzle.0.position={['0 mm', '0 mm', '2 m']}", "shot.diameter=0.2 mm", "shot.material=glass"]
+    glass = json.loads(peenflow("check", PLATE, "--json", *(part for s in far for part in ("--set", s))).stdout)
+    assert glass["effects"]["air_drag"]["state"] == "auto: on"
+    assert glass["effects"]["air_drag"]["estimate"] > 0.5
+
+
 def test_init_makes_a_case_that_passes_check(tmp_path: Path):
     made = peenflow("init", tmp_path / "new")
     assert made.returncode == 0

@@ -1,8 +1,8 @@
-"""What the verification ladder measured: every comparison is recorded before it is judged.
+"""What the verification ladder and the stability suite measured: every comparison is recorded before it is judged.
 
 A test takes the `rung` fixture and states quantities through it. All of them are recorded, the failed ones too; the
 test fails at its end if one of them lies outside its band. With `--record DIR` each test leaves a JSON file there,
-from which `ladder_page.py` writes docs/verification.md.
+from which `ladder_page.py` writes docs/verification.md or docs/stability.md.
 """
 
 import json
@@ -29,6 +29,7 @@ class Row:
 class Rung:
     """The rows of one test, and the curves its pictures are drawn from."""
 
+    title: str = ""  # what the page calls it, where the test's name would not do
     rows: list[Row] = field(default_factory=list)
     curves: dict[str, dict[str, list[float]]] = field(default_factory=dict)
 
@@ -81,6 +82,7 @@ def save(folder: Path, item, report, rung: Rung, seconds: float) -> None:
         "module": module.__name__.rpartition(".")[2],
         "told": module.__doc__.strip(),
         "test": item.name,
+        "title": rung.title,
         "passed": report.passed,
         "skipped": report.skipped,
         "fault": "" if report.passed else fault(report),

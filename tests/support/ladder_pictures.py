@@ -141,10 +141,10 @@ PICTURES = {
 }
 
 
-def draw(curves, folder):
+def draw(curves, folder, by_module):
     """Draw what was measured into `folder`; returns (file, caption) by module. A rung that broke has no picture."""
     made = {}
-    for module, pictures in PICTURES.items():
+    for module, pictures in by_module.items():
         for drawn, name, caption in pictures:
             try:
                 with mpl.rc_context(drawing.STYLE):

@@ -5,7 +5,8 @@ from typing import Any
 import pytest
 
 from peenflow.case.directory import read_case
-from peenflow.estimate import estimate
+from peenflow.estimate import SOLVER, START, estimate, predicted_wall
+from peenflow.machine import ELSEWHERE
 from peenflow.mesh import stage as mesh
 from peenflow.progress import Silent
 from peenflow.records.upstream import Upstream
@@ -61,9 +62,53 @@ def test_finer_costs_more() -> None:
     ("setting", "expected"),
     [
         ("accuracy.dem_time_step=0.4", "accuracy.dem_time_step is 0.4 of the Rayleigh step"),
+        ("accuracy.hourglass=0.5", "hourglass control will hold some"),
+        ("target.johnson_cook.A=100 MPa", "hourglass control will hold some"),
         ("accuracy.mesh_size=0.05 mm", "do not resolve a dent"),
         ("exposure.duration=0.06 ms", "less than one impact is expected on the patch"),
     ],
 )
 def test_warns(setting: str, expected: str) -> None:
     assert any(expected in warning for warning in estimate(scene("plate", setting))["warnings"])
+
+
+def test_warns_of_hard_spheres_in_a_dense_jet() -> None:
+    dense = ("nozzle.0.rate=3e6 1/s", "dem.engine=event-driven")
+    assert any("contacts overlap in time" in warning for warning in estimate(scene("plate", *dense))["warnings"])
+    assert estimate(scene("plate", dense[0]))["dem"]["engine"] == "liggghts"
+    assert estimate(scene("plate"))["dem"]["engine"] == "event-driven"
+
+
+def test_time_goes_with_the_machines_speed_and_threads(tmp_path, monkeypatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "1")
+    single = scene("single-shot")
+    alone = estimate(single)
+    assert not alone["machine"]["measured"]
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "2")
+    both = estimate(single)
+    taken = [found["stages"][0]["predicted_wall_s"] - SOLVER for found in (alone, both)]
+    rates = ELSEWHERE.updates_per_s
+    assert taken[0] / taken[1] == pytest.approx(rates[2] / rates[1], rel=1e-2)
+
+
+def test_steps_of_a_single_shot_are_those_that_were_counted() -> None:
+    """Runs of cases/single-shot by mesh [mm] and relaxation: steps counted, rounded to the relaxation's looks."""
+    counted = {(0.0, 0.005): 1700, (0.0, 0.002): 2900, (0.0, 0.001): 4500, (0.0, 0.0005): 6300}
+    counted |= {(0.015, 0.002): 1500, (0.015, 0.0005): 3100, (0.02, 0.0005): 2200, (0.007, 0.002): 4800}
+    for (size, relaxation), steps in counted.items():
+        settings = [f"accuracy.relaxation={relaxation}"] + ([f"accuracy.mesh_size={size} mm"] if size else [])
+        assert estimate(scene("single-shot", *settings))["fe"]["steps"] == pytest.approx(steps, rel=0.2)
+
+
+def test_steps_of_given_impacts_are_those_that_were_counted() -> None:
+    counted = {(0.05, 0.002): 2500, (0.05, 0.0005): 2880, (0.03, 0.002): 4200, (0.03, 0.0005): 4300}
+    for (size, relaxation), steps in counted.items():
+        found = scene("patch", f"accuracy.mesh_size={size} mm", f"accuracy.relaxation={relaxation}")
+        assert estimate(found)["fe"]["steps"] == pytest.approx(steps, rel=0.25)
+
+
+def test_a_whole_run_takes_its_stages_and_the_start() -> None:
+    plate = scene("plate")
+    stages = sum(row["predicted_wall_s"] for row in estimate(plate)["stages"])
+    assert predicted_wall(plate) == pytest.approx(stages + START, rel=1e-2)

@@ -14,17 +14,23 @@ GUIDE = Path(__file__).parents[2] / "docs" / "guide"
 SECTIONS: dict[str, tuple[type[BaseModel], ...]] = {
     "case": (model.Case,),
     "shot": (model.Shot,),
+    "shot.size_spread": (model.SizeSpread,),
     "shot.constants": (model.Constants,),
     "target": (model.TargetSection,),
-    "target.geometry": (model.PlateGeometry, model.BoltHoleGeometry),
+    "target.geometry": (model.PlateGeometry, model.BoltHoleGeometry, model.FilletGeometry, model.StepGeometry),
     "target.patch": (model.PatchSize,),
     "target.johnson_cook": (model.JohnsonCookConstants,),
+    "target.kinematic_hardening": (model.KinematicHardeningConstants,),
     "nozzle": (model.Nozzle,),
+    "nozzle.speed_spread": (model.SpeedSpread,),
     "deflector": (model.Deflector,),
     "deflector.travel": (model.Travel,),
     "dem": (model.Dem,),
+    "air": (model.AirSection,),
     "exposure": (model.Exposure,),
     "impacts": (model.ImpactsFile,),
+    "contacts": (model.ContactsFile,),
+    "contacts.columns": (model.ContactColumns,),
     "single_shot": (model.SingleShot,),
     "accuracy": (model.Accuracy,),
     "effects": (model.Effects,),
@@ -32,7 +38,8 @@ SECTIONS: dict[str, tuple[type[BaseModel], ...]] = {
     "hpc": (model.Hpc,),
 }
 DIMENSIONS = {"Length": "m", "Speed": "m/s", "Duration": "s", "Rate": "1/s", "MassRate": "kg/s", "Angle": "rad"}
-DIMENSIONS |= {"Pressure": "Pa", "Density": "kg/m^3", "Temperature": "K", "HeatCapacity": "J/(kg K)"}
+DIMENSIONS |= {"Pressure": "Pa", "Density": "kg/m^3", "Temperature": "K", "HeatCapacity": "J/(kg K)", "Share": "%"}
+DIMENSIONS |= {"Viscosity": "Pa s"}
 UNITS = {typing.get_args(getattr(model.units, name))[1]: unit for name, unit in DIMENSIONS.items()}
 
 

@@ -36,13 +36,13 @@ def record(passed, **changes):
     rung = ladder.Rung()
     rung.near("force", 57.0 if passed else 50.0, 58.0, "N", rel=0.02)
     told = "One shot.\n\nSource: a book."
-    fields = {"module": "test_single_shot", "told": told, "test": "test_at_8_m_s", "passed": passed, "start": 0.0}
+    fields = {"module": "test_single_shot", "told": told, "test": "test_at_8_m_s", "title": "", "passed": passed, "start": 0.0}
     fields |= {"fault": "" if passed else "AssertionError: force", "seconds": 60.0, "curves": {}}
     return fields | {"rows": [dataclasses.asdict(row) for row in rung.rows]} | changes
 
 
 def test_the_page_shows_figures_band_and_source(tmp_path):
-    ladder_page.write([record(True)], tmp_path)
+    ladder_page.write([record(True)], tmp_path, ladder_page.PAGES["verification"])
     page = (tmp_path / "verification.md").read_text()
     assert "All 1 tests passed, with 1 figures" in page
     assert "## One shot\n\nSource: a book." in page
@@ -50,8 +50,23 @@ def test_the_page_shows_figures_band_and_source(tmp_path):
 
 
 def test_the_page_shows_what_failed(tmp_path):
-    ladder_page.write([record(False), record(False, rows=[], test="test_broken")], tmp_path)
+    records = [record(False), record(False, rows=[], test="test_broken")]
+    ladder_page.write(records, tmp_path, ladder_page.PAGES["verification"])
     page = (tmp_path / "verification.md").read_text()
     assert "2 of 2 tests **failed**" in page
     assert "| 50 N | 58 | -14 % | ± 2 % | **failed** |" in page
     assert "broken failed: `AssertionError: force`" in page
+
+
+def test_what_every_scene_states_is_summed_up_in_one_table(tmp_path):
+    rung = ladder.Rung()
+    rung.below("energy error", 0.03, 0.02)
+    rung.note("elements", 4000)
+    rows = [dataclasses.asdict(row) for row in rung.rows]
+    one = record(False, module="test_speeds", title="300 m/s", rows=rows)
+    ladder_page.write([one, record(True, module="test_speeds")], tmp_path, ladder_page.PAGES["stability"])
+    page = (tmp_path / "stability.md").read_text()
+    assert "| scene | elements | energy error | s |" in page
+    assert "| *band* |  | ≤ 0.02 | |" in page
+    assert "| 300 m/s | 4000 | **0.03** | 60 |" in page
+    assert page.count("| energy error |") == 1

@@ -26,9 +26,10 @@ def test_the_bolt_hole() -> None:
     assert found.knobs.calibration_mesh_size == pytest.approx(0.3556e-3 / 36, rel=0.02)
     assert found.knobs.depth == pytest.approx(0.75e-3, rel=0.01)
     assert found.knobs.boundary == "far-field"
-    assert found.shot.per_second(found.case.nozzle[0]) == 40000
+    assert found.thrown.per_second(found.case.nozzle[0]) == 40000
     on = {name for name, decision in found.effects.items() if decision.on}
-    assert on == {"rate_hardening", "contact_friction", "shot_collisions", "deflector_motion", "far_field"}
+    flow = {"rate_hardening", "kinematic_hardening", "contact_friction"}
+    assert on == flow | {"shot_collisions", "deflector_motion", "far_field"}
     assert found.material.rate is not None
     assert found.material.thermal is None
 
@@ -87,7 +88,7 @@ def test_boundary_decides_the_far_field() -> None:
         assert scene(name, "effects.far_field=off").knobs.boundary == "fixed"
 
 
-@pytest.mark.parametrize(("switch", "absorbs"), [("auto", True), ("on", True), ("off", False)])
+@pytest.mark.parametrize(("switch", "absorbs"), [("auto", False), ("on", True), ("off", False)])
 def test_the_far_fields_switch_reaches_a_single_shots_cell(switch: str, absorbs: bool) -> None:
     inputs = calibrate.inputs(scene("single-shot", f"effects.far_field={switch}"), Upstream())
     assert isinstance(inputs, calibrate.Inputs)
@@ -95,9 +96,12 @@ def test_the_far_fields_switch_reaches_a_single_shots_cell(switch: str, absorbs:
 
 
 def test_an_effect_that_is_off_leaves_no_constants() -> None:
-    found = scene("plate", "effects.rate_hardening=off", "effects.thermal_softening=on")
+    off = ["effects.rate_hardening=off", "effects.kinematic_hardening=off"]
+    found = scene("plate", *off, "effects.thermal_softening=on")
     assert found.material.rate is None
+    assert found.material.kinematic is None
     assert found.material.thermal is not None
+    assert scene("plate").material.kinematic is not None
     assert found.dent_radius > scene("plate").dent_radius
 
 
@@ -135,3 +139,29 @@ def test_given_diameters_set_mesh_margin_and_times(tmp_path: Path) -> None:
 def test_a_patch_without_room_for_a_dent_is_refused(key: str) -> None:
     with pytest.raises(InputError, match=rf"target\.patch\.{key} is 0\.1 mm, but only impacts 0\.0\d+ mm"):
         scene("plate", f"target.patch.{key}=0.1 mm")
+
+
+WIDE = 'shot.size_spread={ kind = "normal", sigma = "0.05 mm" }'
+
+
+def test_sizes_that_scatter_set_the_mesh_by_the_small_and_all_else_by_the_large() -> None:
+    """Five sizes, 0, ±1.36 and ±2.86 σ off the mean; the smallest are 1.1 % of the shots and need no resolving."""
+    equal, mixed = scene("plate"), scene("plate", WIDE)
+    assert mixed.thrown.shot == equal.shot
+    assert mixed.shot.diameter == pytest.approx(0.3556e-3 + 2.857 * 0.05e-3, rel=1e-3)
+    assert mixed.thrown.diameters[-1] == mixed.shot.diameter
+    assert mixed.dent_radius / equal.dent_radius == pytest.approx(mixed.shot.diameter / 0.3556e-3, rel=0.02)
+    assert mixed.knobs.mesh_size / equal.knobs.mesh_size == pytest.approx(1 - 1.3556 * 0.05 / 0.3556, rel=0.02)
+
+
+def test_sizes_do_not_scatter_where_the_effect_is_off() -> None:
+    off = scene("plate", WIDE, "effects.size_spread=off")
+    assert off.shot == off.thrown.shot == scene("plate").shot
+    assert list(off.thrown.shares) == [1.0]
+
+
+def test_a_mass_rate_is_shared_among_shots_of_the_mean_mass() -> None:
+    flow = "nozzle.0.mass_rate=1 kg/min"
+    equal, mixed = (scene("plate", flow, *more) for more in ([], [WIDE]))
+    ratio = mixed.thrown.per_second(mixed.case.nozzle[0]) / equal.thrown.per_second(equal.case.nozzle[0])
+    assert ratio == pytest.approx(1 / (1 + 3 * (0.05 / 0.3556) ** 2))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from peenflow import templates
+from peenflow import drag, templates
 from peenflow.dem import bodies
 from peenflow.dem.engine import FLUSH, Nozzle, Stream
 from peenflow.dem.liggghts import stl
@@ -28,6 +28,7 @@ DENSEST_STREAM = 0.2  # volume fraction up to which random insertion finds room
 LEAST_DRAWS, SPREAD_OF_DRAWS = 1001, 100_000  # random places drawn before the first shot's
 SKIN = 2.25  # shot diameters: how far beyond contact neighbours are listed
 GUARD = 1.1 + SKIN / 2  # shot diameters from nozzle to guard: a deleted shot flies on until lists are renewed (skin/2)
+SIZE_SEEDS = 10_000  # purposes of the sizes' seeds, where there are several: beyond those of any nozzle
 LEAST_RESTITUTION = 0.05  # LIGGGHTS refuses this and less
 
 
@@ -40,7 +41,17 @@ class Packets:
     window: int
     shots: int  # altogether
     rate: float  # 1/s, count/(every·dt)
-    velocity: tuple[float, ...]  # m/s, of its components the means and, for a cone, the standard deviations
+    velocity: tuple[float, ...]  # m/s, of its components the means and, where they scatter, the standard deviations
+
+
+@dataclass(frozen=True)
+class Size:
+    """One size of the shots as LIGGGHTS takes it: a particle template."""
+
+    name: str
+    seed: int
+    radius: float  # m
+    share: float  # by number
 
 
 @dataclass(frozen=True)
@@ -60,15 +71,16 @@ def build(stream: Stream, shard: int) -> Deck:
         RunError: a facet without area.
     """
     _check_restitution(stream)
+    largest = float(stream.diameters[-1])
     packets = [packets_of(stream, i) for i in range(len(stream.nozzles))]
     meshes = {"target": stream.walls.triangles}
     if stream.rod:
         entry = float(stream.walls.triangles[..., 2].min())
-        meshes["deflector"] = bodies.rod(stream.rod, entry, stream.shot.diameter)
+        meshes["deflector"] = bodies.rod(stream.rod, entry, largest)
     walls = tuple(meshes)
     for i, nozzle in enumerate(stream.nozzles):
         meshes[f"nozzle{i}"] = bodies.disc(nozzle)
-        meshes[f"guard{i}"] = bodies.guard(nozzle, GUARD * stream.shot.diameter)
+        meshes[f"guard{i}"] = bodies.guard(nozzle, GUARD * largest)
     steps = _steps(stream)
     seeds = [prime_seed(stream.seed, shard, purpose) for purpose in range(2 + len(packets))]
     deck = templates.environment().get_template(f"liggghts/{DECK}.j2")
@@ -77,7 +89,9 @@ def build(stream: Stream, shard: int) -> Deck:
         walls=walls,
         packets=packets,
         box=domain(stream, meshes, packets),
-        skin=SKIN * stream.shot.diameter,
+        skin=SKIN * largest,
+        sizes=sizes_of(stream, shard),
+        drag=drag,
         dump=DUMP,
         columns=[f"c_contacts[{column + 1}]" for column in range(COLUMNS)],
         travel=_travel_steps(stream, steps),
@@ -91,21 +105,31 @@ def build(stream: Stream, shard: int) -> Deck:
     return Deck({DECK: text} | solids, {name: len(triangles) for name, triangles in meshes.items()}, steps)
 
 
+def sizes_of(stream: Stream, shard: int) -> list[Size]:
+    """The shots' particle templates. LIGGGHTS 3.8 takes constant radii only: a spread is a few of them."""
+    if len(stream.diameters) == 1:
+        return [Size("shot", prime_seed(stream.seed, shard, 0), float(stream.diameters[0]) / 2, 1.0)]
+    return [
+        Size(f"shot{i}", prime_seed(stream.seed, shard, SIZE_SEEDS + i), diameter / 2, share)
+        for i, (diameter, share) in enumerate(zip(stream.diameters.tolist(), stream.shares.tolist(), strict=True))
+    ]
+
+
 def packets_of(stream: Stream, index: int) -> Packets:
     """How nozzle number `index` throws its shots.
 
     A packet waits behind the nozzle, spread over the length that the shots fly in its window, and passes the nozzle
     at the nozzle's velocity.
     """
-    nozzle, diameter, dt = stream.nozzles[index], stream.shot.diameter, stream.time_step
+    nozzle, largest, dt = stream.nozzles[index], float(stream.diameters[-1]), stream.time_step
     shots = round(nozzle.rate * stream.duration)
     if shots < 1:
         raise InputError(
             f"nozzle {index + 1} throws {nozzle.rate * stream.duration:.2g} shots in exposure.duration "
             f"({stream.duration:g} s): none at all. Lengthen exposure.duration or raise the nozzle's rate."
         )
-    _check_density(nozzle, index, diameter)
-    shortest = SHORTEST_PACKET * diameter
+    _check_density(nozzle, index, float(stream.shares @ stream.diameters**3))
+    shortest = SHORTEST_PACKET * largest
     length = max(min(min(PACKET, shots) * nozzle.speed / nozzle.rate, LONGEST_PACKET), shortest)
     count = max(1, round(nozzle.rate * length / nozzle.speed))
     every = math.ceil(max(count / nozzle.rate, shortest / nozzle.speed) / dt)
@@ -114,17 +138,25 @@ def packets_of(stream: Stream, index: int) -> Packets:
 
 
 def _velocity(nozzle: Nozzle) -> tuple[float, ...]:
-    """Means of the velocity's components and, for a cone, their standard deviations.
+    """Means of the velocity's components and, where they scatter, their standard deviations.
 
     A cone is a normal distribution of the velocity across the direction, its standard deviation speed·tan(cone/2)/2, so
-    that 86 % (1 − e⁻²) of the shots fly within the cone. LIGGGHTS scatters x, y and z independently: for a nozzle not
-    along an axis, the speed scatters too.
+    that 86 % (1 − e⁻²) of the shots fly within the cone. A spread of speed scatters the velocity along the direction n.
+
+    LIGGGHTS scatters x, y and z independently, so that only along an axis is either of them what it should be. For
+    another direction a cone scatters the speed too, and a spread σ the direction: its components get
+    σ |n_i|/√(Σ n_j⁴), which makes σ along n and up to σ in either direction across it.
     """
-    mean = nozzle.speed * np.asarray(nozzle.direction)
-    if not nozzle.cone:
+    direction = np.asarray(nozzle.direction)
+    mean = nozzle.speed * direction
+    if not (nozzle.cone or nozzle.speed_spread):
         return tuple(mean.tolist())
-    across = np.sqrt(np.clip(1 - np.square(nozzle.direction), 0, None))
-    return (*mean.tolist(), *(nozzle.speed * math.tan(nozzle.cone / 2) / 2 * across).tolist())
+    across = np.sqrt(np.clip(1 - np.square(direction), 0, None))
+    cone = nozzle.speed * math.tan(nozzle.cone / 2) / 2 * across
+    if not nozzle.speed_spread:
+        return (*mean.tolist(), *cone.tolist())
+    along = nozzle.speed_spread * np.abs(direction) / math.sqrt(np.sum(direction**4))
+    return (*mean.tolist(), *np.hypot(cone, along).tolist())
 
 
 def domain(stream: Stream, meshes: dict[str, np.ndarray], packets: list[Packets]) -> list[tuple[float, float]]:
@@ -136,7 +168,7 @@ def domain(stream: Stream, meshes: dict[str, np.ndarray], packets: list[Packets]
     for i, (nozzle, packet) in enumerate(zip(stream.nozzles, packets, strict=True)):
         length = packet.window * stream.time_step * nozzle.speed
         points.append(meshes[f"nozzle{i}"].reshape(-1, 3) - length * np.asarray(nozzle.direction))
-    margin = 2e-3 + 4 * stream.shot.diameter
+    margin = 2e-3 + 4 * float(stream.diameters[-1])
     every = np.concatenate(points)
     return list(zip((every.min(axis=0) - margin).tolist(), (every.max(axis=0) + margin).tolist(), strict=True))
 
@@ -163,8 +195,9 @@ def _check_restitution(stream: Stream) -> None:
             )
 
 
-def _check_density(nozzle: Nozzle, index: int, diameter: float) -> None:
-    fraction = nozzle.rate / nozzle.speed * math.pi / 6 * diameter**3 / (math.pi / 4 * nozzle.diameter**2)
+def _check_density(nozzle: Nozzle, index: int, cubed: float) -> None:
+    """`cubed` [m³] is the mean of the diameters' third power."""
+    fraction = nozzle.rate / nozzle.speed * math.pi / 6 * cubed / (math.pi / 4 * nozzle.diameter**2)
     if fraction > DENSEST_STREAM:
         raise InputError(
             f"nozzle {index + 1} would fill {100 * fraction:.0f} % of its stream with shots; more than "

@@ -11,6 +11,9 @@ from peenflow.dem.liggghts.deck import COLUMNS
 from peenflow.errors import RunError
 
 BLOCK = 20_000  # rows
+LONGEST = 4096  # bytes of a line; 19 numbers take 300
+INDICES = slice(12, 15)  # columns of mesh, triangle and shot
+LARGEST_INDEX = 2**31
 
 
 @dataclass(frozen=True)
@@ -38,7 +41,11 @@ def blocks(path: Path, last_step: int, interval: int, size: int = BLOCK) -> Iter
     steps: list[int] = []
     lines: list[bytes] = []
     due = 0
-    with open(path, "rb") as dump:
+    try:
+        dump = open(path, "rb")  # noqa: SIM115 (closed by the `with` below)
+    except OSError as error:
+        raise _damaged(path, f"cannot be read ({error.strerror})") from error
+    with dump:
         while (snapshot := _snapshot(dump, path)) is not None:
             step, rows = snapshot
             if step != due:
@@ -57,21 +64,24 @@ def blocks(path: Path, last_step: int, interval: int, size: int = BLOCK) -> Iter
 
 def _snapshot(dump: BinaryIO, path: Path) -> tuple[int, list[bytes]] | None:
     """Step and rows of the next snapshot; None at the file's end."""
-    title = dump.readline()
+    title = dump.readline(LONGEST)
     if not title:
         return None
     try:
-        step = int(dump.readline())
-        count_title, count = dump.readline(), int(dump.readline())
+        step = int(dump.readline(LONGEST))
+        count_title, count = dump.readline(LONGEST), int(dump.readline(LONGEST))
     except ValueError:
         raise _damaged(path, f"is cut or damaged near byte {dump.tell()}") from None
-    header = [dump.readline() for _ in range(5)]  # bounds' title and three lines, columns' title
-    rows = [dump.readline() for _ in range(count)]
+    header = [dump.readline(LONGEST) for _ in range(5)]  # bounds' title and three lines, columns' title
+    rows: list[bytes] = []
+    while len(rows) < count and (row := dump.readline(LONGEST)):  # a damaged count may be beyond any memory
+        rows.append(row)
     whole = (
         title == b"ITEM: TIMESTEP\n"
         and count_title.startswith(b"ITEM: NUMBER OF ENTRIES")
         and header[-1].startswith(b"ITEM: ENTRIES")
         and (rows or header)[-1].endswith(b"\n")
+        and len(rows) == count
     )
     if not whole:
         raise _damaged(path, f"is cut or damaged in the snapshot of step {step}")
@@ -80,14 +90,21 @@ def _snapshot(dump: BinaryIO, path: Path) -> tuple[int, list[bytes]] | None:
 
 def _rows(steps: list[int], lines: list[bytes], path: Path) -> Rows:
     try:
-        table = np.array([line.split() for line in lines], dtype=float).reshape(-1, COLUMNS)
+        table = np.array([line.split() for line in lines], dtype=float)
     except ValueError:
-        raise _damaged(path, f"has a damaged row between steps {steps[0]} and {steps[-1]}") from None
+        table = np.empty(0)
+    if table.shape != (len(lines), COLUMNS):
+        raise _damaged(path, f"has a damaged row between steps {steps[0]} and {steps[-1]}")
     if not np.isfinite(table).all():
         bad = np.flatnonzero(~np.isfinite(table).all(axis=1))[0]
         raise RunError(
             f"{path} holds a contact that is not a number at step {steps[bad]}: the contact law diverged. "
             "Lower accuracy.dem_time_step."
+        )
+    indices = table[:, INDICES]
+    if not ((indices == np.rint(indices)) & (indices >= 0) & (indices < LARGEST_INDEX)).all():
+        raise _damaged(
+            path, f"has a number of mesh, triangle or shot that is none between steps {steps[0]} and {steps[-1]}"
         )
     return Rows(
         step=np.array(steps, np.int64),

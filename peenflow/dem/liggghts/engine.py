@@ -21,6 +21,7 @@ class Liggghts:
 
     def throw(self, stream: Stream, shards: int, directory: Path, progress: Progress) -> list[Contacts]:
         """See `peenflow.dem.engine.Engine`."""
+        _say_what_differs(stream, progress)
         all_shards = [
             Shard(stream, deck.build(stream, index), directory / f"shard-{index:03d}") for index in range(shards)
         ]
@@ -36,6 +37,20 @@ class Liggghts:
         if spoilt := sum(finished.spoilt for finished in done):
             progress.note(f"{spoilt} shots left out from where LIGGGHTS noticed a contact too late and threw them off")
         return [finished.contacts for finished in done]
+
+
+def _say_what_differs(stream: Stream, progress: Progress) -> None:
+    """Note where LIGGGHTS does less than the stream asks for."""
+    if stream.walls.rebound is not None:
+        progress.note(
+            "LIGGGHTS has one coefficient of restitution for a pair of materials: hits on the target rebound with the "
+            f"mean, {stream.walls.restitution:.3g}, whatever their speed and what hit there before"
+        )
+    if any(nozzle.speed_spread and max(map(abs, nozzle.direction)) < 1 for nozzle in stream.nozzles):
+        progress.note(
+            "LIGGGHTS scatters a velocity's components independently: the spread of speed of a nozzle that is not "
+            "along an axis scatters the direction too"
+        )
 
 
 def run_all(shards: list[Shard], report: Callable[[float], None]) -> dict[Path, Finished]:

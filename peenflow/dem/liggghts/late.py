@@ -13,16 +13,19 @@ import numpy as np
 from peenflow.dem.engine import Stream
 
 STEPS_APART = 3  # time steps between two rows of one contact, or the interval if that is longer
-GAIN = math.sqrt(2)  # two equal shots: the faster one leaves with at most √(v₁² + v₂²)
+SCATTER = 4.0  # standard deviations above the mean, within which all but one of 30,000 shots fly
 
 
 def spoilt(stream: Stream, step: np.ndarray, shot: np.ndarray, surface: np.ndarray, overlap: np.ndarray) -> np.ndarray:
     """Whether rows (n,), ordered by step, are of a shot from a contact on that was noticed too late.
 
-    A contact is late if the overlap of its first row is deeper than a shot √2 times as fast as the fastest nozzle
-    gets in one interval, the rod's speed added.
+    A contact is late if the overlap of its first row is deeper than the fastest shot gets in one interval, the rod's
+    speed added: of two equal shots the faster one leaves with at most √(v₁² + v₂²), √2 times what nozzles throw, the
+    lighter of two with at most √(1 + m₂/m₁) times that (the other one left at rest).
     """
-    speed = GAIN * max(nozzle.speed for nozzle in stream.nozzles) + (stream.rod.speed if stream.rod else 0.0)
+    gain = math.sqrt(1 + float(stream.diameters[-1] / stream.diameters[0]) ** 3)
+    thrown = max(nozzle.speed + SCATTER * nozzle.speed_spread for nozzle in stream.nozzles)
+    speed = gain * thrown + (stream.rod.speed if stream.rod else 0.0)
     deepest = speed * stream.interval * stream.time_step
     order = np.lexsort((step, surface, shot))
     near = np.diff(step[order]) <= max(STEPS_APART, stream.interval)

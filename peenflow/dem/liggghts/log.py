@@ -4,6 +4,7 @@ import math
 import re
 import shutil
 import signal
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,6 +17,8 @@ _INSERTED = re.compile(r"Particle insertion \S+ inserted (\d+) particle template
 _HIGHEST = re.compile(r"HIGHEST (\S+) at step (\S+)")
 _THERMO = re.compile(r" *\d+ +\d+ +(\S+) *$")
 _END = re.compile(r"DECK-END step (\d+)")
+LONGEST = 4096  # characters of a line
+MOST_SHOTS = 2**31  # LIGGGHTS numbers them by 32 bits
 FULL_DISK = 1 << 20  # bytes: less is as good as none
 
 
@@ -41,35 +44,52 @@ class Log:
 
 
 def read(path: Path) -> Log:
-    """The log at `path`, line by line."""
+    """The log at `path`, line by line.
+
+    Raises:
+        RunError: a line has no numbers where LIGGGHTS writes them.
+    """
+    with open(path, errors="replace") as handle:
+        lines = iter(lambda: handle.readline(LONGEST), "")
+        try:
+            return _read(lines)
+        except (ValueError, KeyError, OverflowError) as error:
+            raise RunError(
+                f"{path} is damaged ({error}): the disk may have been full for a while. Make room and run again; "
+                "finished shards are kept."
+            ) from error
+
+
+def _read(lines: Iterator[str]) -> Log:
     version, error, end, finite = "", "", None, True
     triangles: dict[str, int] = {}
     insertions: list[Insertion] = []
     highest = {0: 0}  # step → highest number of a living shot
-    with open(path, errors="replace") as lines:
-        for line in lines:
-            if found := _INSERTED.search(line):
-                insertions.append(_insertion(int(found[2]), int(found[1]), insertions, highest))
-            elif found := _HIGHEST.match(line):
-                highest[int(float(found[2]))] = max(0, int(float(found[1])))  # no shot: minus a big number
-            elif found := _THERMO.match(line):
-                finite = finite and math.isfinite(float(found[1]))
-            elif found := _TRIANGLES.search(line):
-                triangles[found[1]] = int(found[2])
-            elif found := _VERSION.search(line):
-                version = found[1]
-            elif found := _END.match(line):
-                end = int(found[1])
-            elif line.startswith("ERROR") and not error:
-                error = " ".join([line.strip(), next(lines, "").strip()]).strip()
+    for line in lines:
+        if found := _INSERTED.search(line):
+            insertions.append(_insertion(int(found[2]), int(found[1]), insertions, highest))
+        elif found := _HIGHEST.match(line):
+            highest[int(float(found[2]))] = max(0, int(float(found[1])))  # no shot: minus a big number
+        elif found := _THERMO.match(line):
+            finite = finite and math.isfinite(float(found[1]))
+        elif found := _TRIANGLES.search(line):
+            triangles[found[1]] = int(found[2])
+        elif found := _VERSION.search(line):
+            version = found[1]
+        elif found := _END.match(line):
+            end = int(found[1])
+        elif line.startswith("ERROR") and not error:
+            error = " ".join([line.strip(), next(lines, "").strip()]).strip()
     return Log(version, triangles, tuple(insertions), error, end, finite)
 
 
 def _insertion(step: int, count: int, earlier: list[Insertion], highest: dict[int, int]) -> Insertion:
     """Number the packet's shots on from those of another nozzle at this step, or from the highest living one."""
-    if earlier and earlier[-1].step == step:
-        return Insertion(step, earlier[-1].first + earlier[-1].count, count)
-    return Insertion(step, highest[step - 1] + 1, count)
+    same = bool(earlier) and earlier[-1].step == step
+    first = earlier[-1].first + earlier[-1].count if same else highest[step - 1] + 1
+    if first + count > MOST_SHOTS:
+        raise ValueError(f"{count} shots inserted at step {step}")
+    return Insertion(step, first, count)
 
 
 def check(log: Log, deck: Deck, status: int, path: Path) -> None:

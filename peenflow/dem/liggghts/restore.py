@@ -22,20 +22,21 @@ from peenflow.scene import ShotProperties
 class Law:
     """Hertz contact of sphere and wall with damping that keeps the restitution (LIGGGHTS: gran model hertz)."""
 
-    radius: float  # m
-    mass: float  # kg
+    radius: np.ndarray  # m, of the shot of each row (n,)
+    mass: np.ndarray  # kg, likewise
     modulus: float  # Pa, E* of both bodies
     restitution: float
 
     @classmethod
-    def of(cls, shot: ShotProperties, walls: Walls) -> "Law":
-        """The law between a shot and the walls."""
+    def of(cls, shot: ShotProperties, walls: Walls, diameter: np.ndarray) -> "Law":
+        """The law between the walls and shots of `diameter` (n,) [m], all else as `shot`."""
         compliance = (1 - shot.poisson**2) / shot.young + (1 - walls.poisson**2) / walls.young
-        return cls(shot.diameter / 2, shot.mass, 1 / compliance, walls.restitution)
+        mass = shot.mass * (diameter / shot.diameter) ** 3
+        return cls(diameter / 2, mass, 1 / compliance, walls.restitution)
 
     def elastic(self, overlap: np.ndarray) -> np.ndarray:
         """K δ^1.5 [N], K = 4/3 E* √R."""
-        return np.asarray(4 / 3 * self.modulus * math.sqrt(self.radius) * overlap**1.5)
+        return np.asarray(4 / 3 * self.modulus * np.sqrt(self.radius) * overlap**1.5)
 
     def damping(self, overlap: np.ndarray) -> np.ndarray:
         """c [N s/m] = 2√(5/6) |β| √(2 E* √(Rδ) m), β = ln e/√(ln²e + π²)."""
@@ -44,7 +45,7 @@ class Law:
         stiffness = 2 * self.modulus * np.sqrt(self.radius * overlap)
         return np.asarray(2 * math.sqrt(5 / 6) * beta * np.sqrt(stiffness * self.mass))
 
-    def mid_step(self, overlap: np.ndarray, approach: np.ndarray, impulse: float) -> tuple[np.ndarray, np.ndarray]:
+    def mid_step(self, overlap: np.ndarray, approach: np.ndarray, impulse: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Approach speed h [m/s] before a force that acts for `impulse` = Δt/m (or Δt/2m) slowed it, and that force."""
         elastic, damping = self.elastic(overlap), self.damping(overlap)
         h = (approach + impulse * elastic) / (1 - impulse * damping)
@@ -65,15 +66,25 @@ def restore(rows: Rows, law: Law, time_step: float, interval: int) -> tuple[np.n
     tangential = rows.force - np.einsum("ij,ij->i", rows.force, normal)[:, None] * normal
     force = push[:, None] * normal + tangential
     shot_and_step = np.unique(np.stack([rows.step, rows.number]), axis=1, return_inverse=True)[1].ravel()
-    velocity = rows.velocity - time_step / (2 * law.mass) * _summed(force, shot_and_step)
+    pushed = (time_step / law.mass)[:, None]
+    velocity = rows.velocity - pushed / 2 * _summed(force, shot_and_step)
     overlap = rows.overlap
     for _ in range(interval - 1):
         overlap = np.maximum(overlap - h * time_step, 0)
         h, before = law.mid_step(overlap, h, time_step / law.mass)
         share = np.divide(before, push, out=np.zeros_like(push), where=push > 0).clip(0, 1)
         step_force = np.where(overlap > 0, before, 0)[:, None] * normal + share[:, None] * tangential
-        velocity = velocity - time_step / law.mass * _summed(step_force, shot_and_step)
+        velocity = velocity - pushed * _summed(step_force, shot_and_step)
     return force, velocity
+
+
+def diameters(rows: Rows, sizes: np.ndarray) -> np.ndarray:
+    """Diameter (n,) [m] of each row's shot, the nearest of the stream's `sizes` (k,) [m].
+
+    LIGGGHTS dumps none: the contact point lies as far from the centre as the radius less the overlap.
+    """
+    measured = 2 * (np.linalg.norm(rows.centre - rows.point, axis=1) + rows.overlap)
+    return np.asarray(sizes[np.abs(measured[:, None] - sizes).argmin(axis=1)])
 
 
 def _summed(force: np.ndarray, group: np.ndarray) -> np.ndarray:

@@ -14,8 +14,8 @@ from peenflow.dem.liggghts import deck as decks
 from peenflow.dem.liggghts import dump, log
 from peenflow.dem.liggghts.late import spoilt
 from peenflow.dem.liggghts.process import LOG
-from peenflow.dem.liggghts.restore import Law, restore
-from peenflow.errors import InputError
+from peenflow.dem.liggghts.restore import Law, diameters, restore
+from peenflow.errors import InputError, RunError
 from peenflow.files import write_text_whole
 from peenflow.records import hdf5
 from peenflow.records.contacts import Contacts
@@ -85,26 +85,29 @@ class Shard:
         return dataclasses.replace(contacts, **rows), len(np.unique(contacts.shot[out]))
 
     def _contacts(self, told: log.Log) -> Contacts:
-        stream, law = self.stream, Law.of(self.stream.shot, self.stream.walls)
-        read = dump.blocks(self.directory / decks.DUMP, self.deck.steps, stream.interval)
-        parts = [(rows, *restore(rows, law, stream.time_step, stream.interval)) for rows in read]
+        stream = self.stream
+        parts = []
+        for rows in dump.blocks(self.directory / decks.DUMP, self.deck.steps, stream.interval):
+            diameter = diameters(rows, stream.diameters)
+            law = Law.of(stream.shot, stream.walls, diameter)
+            parts.append((rows, diameter, *restore(rows, law, stream.time_step, stream.interval)))
 
         def joined(arrays: list[np.ndarray], like: tuple[int, ...], dtype: type) -> np.ndarray:
             return np.concatenate([np.empty(like, dtype), *arrays])
 
-        step = joined([rows.step for rows, _, _ in parts], (0,), np.int64)
-        number = joined([rows.number for rows, _, _ in parts], (0,), np.int64)
+        step = joined([rows.step for rows, *_ in parts], (0,), np.int64)
+        number = joined([rows.number for rows, *_ in parts], (0,), np.int64)
         return Contacts(
             t=step * stream.time_step,
             shot=shot_numbers(told.insertions, step, number),
-            surface=joined([rows.surface for rows, _, _ in parts], (0,), np.int32),
-            facet=joined([rows.facet for rows, _, _ in parts], (0,), np.int32),
-            point=joined([rows.point for rows, _, _ in parts], (0, 3), float),
-            velocity=joined([velocity for _, _, velocity in parts], (0, 3), float),
-            wall_velocity=joined([rows.wall_velocity for rows, _, _ in parts], (0, 3), float),
-            force=joined([force for _, force, _ in parts], (0, 3), float),
-            overlap=joined([rows.overlap for rows, _, _ in parts], (0,), float),
-            diameter=np.full(len(step), stream.shot.diameter),
+            surface=joined([rows.surface for rows, *_ in parts], (0,), np.int32),
+            facet=joined([rows.facet for rows, *_ in parts], (0,), np.int32),
+            point=joined([rows.point for rows, *_ in parts], (0, 3), float),
+            velocity=joined([velocity for *_, velocity in parts], (0, 3), float),
+            wall_velocity=joined([rows.wall_velocity for rows, *_ in parts], (0, 3), float),
+            force=joined([force for _, _, force, _ in parts], (0, 3), float),
+            overlap=joined([rows.overlap for rows, *_ in parts], (0,), float),
+            diameter=joined([diameter for _, diameter, *_ in parts], (0,), float),
             surfaces=SURFACES[: 2 if stream.rod else 1],
             interval=stream.interval * stream.time_step,
             duration=self.deck.steps * stream.time_step,
@@ -127,13 +130,22 @@ def shot_numbers(insertions: tuple[log.Insertion, ...], step: np.ndarray, number
     """Shots numbered from 0 in the order of insertion, for rows ordered by step.
 
     LIGGGHTS gives the number of a shot that has left the domain to a later one; here each keeps its own.
+
+    Raises:
+        RunError: a row of a shot that was not inserted.
     """
-    shot = np.empty(len(step), np.int64)
-    owner = np.full(max([number.max(initial=0) + 1, *(i.first + i.count for i in insertions)]), -1)
+    shot = np.full(len(step), -1)
+    owner = np.full(max([1, *(i.first + i.count for i in insertions)]), -1)
+    number = np.where(number < len(owner), number, 0)  # LIGGGHTS counts from 1: none is number 0
     bounds = np.searchsorted(step, [insertion.step for insertion in insertions]).tolist()
     thrown = 0
     for insertion, low, high in zip(insertions, bounds, [*bounds[1:], len(step)], strict=True):
         owner[insertion.first : insertion.first + insertion.count] = thrown + np.arange(insertion.count)
         thrown += insertion.count
         shot[low:high] = owner[number[low:high]]
+    if (shot < 0).any():
+        raise RunError(
+            f"A contact at step {step[np.argmin(shot)]} is of a shot that LIGGGHTS' log does not tell of: dump or log "
+            "is damaged. Run again; finished shards are kept."
+        )
     return shot

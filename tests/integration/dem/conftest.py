@@ -18,11 +18,14 @@ def plate_stream() -> Callable[..., Stream]:
     def make(**changes: object) -> Stream:
         stream = Stream(
             shot=STEEL_SHOT,
-            nozzles=(Nozzle((2e-3, 1e-3, 2e-3), (0.0, 0.0, -1.0), 0.5e-3, 62.5, 40000.0, 0.0),),
-            walls=Walls(PLATE, False, 210e9, 0.3, 0.4, 0.3),
+            diameters=np.array([STEEL_SHOT.diameter]),
+            shares=np.ones(1),
+            nozzles=(Nozzle((2e-3, 1e-3, 2e-3), (0.0, 0.0, -1.0), 0.5e-3, 62.5, 0.0, 40000.0, 0.0),),
+            walls=Walls(PLATE, False, 210e9, 0.3, 0.4, None, 0.3),
             rod=None,
             shot_restitution=0.57,
             shot_collisions=True,
+            air=None,
             gravity=False,
             duration=25e-6,
             seed=1,

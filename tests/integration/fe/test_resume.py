@@ -87,3 +87,22 @@ def test_one_and_two_threads_agree_to_rounding(undisturbed):
     assert one.state.peeq.max() == pytest.approx(undisturbed.state.peeq.max(), rel=1e-6)
     # Relaxation stops at a residual of 0.1 %, one check sooner or later.
     assert np.abs(one.state.u - undisturbed.state.u).max() < 1e-3 * np.abs(one.state.u).max()
+
+
+@pytest.mark.parametrize(
+    ("name", "bad"),
+    [
+        ("u", np.zeros((3, 3))),
+        ("deviator", np.zeros((1, 80), np.float32)),
+        ("active", np.array([10**6])),
+        ("ball_centre", np.zeros((0, 3))),
+    ],
+)
+def test_a_file_whose_arrays_do_not_fit_is_not_taken(tmp_path, name, bad):
+    """Kernels trust shapes: one who can write the file must not reach past them."""
+    solver = Solver(cell(), 1)
+    checkpoint.save(solver, tmp_path / "c.npz")
+    with np.load(tmp_path / "c.npz") as file:
+        crafted = dict(file) | {name: bad}
+    np.savez(tmp_path / "c.npz", **crafted)
+    assert not checkpoint.resume(Solver(cell(), 1), tmp_path / "c.npz")

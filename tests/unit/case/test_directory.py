@@ -45,6 +45,14 @@ duration = "2 ms"
 """
 
 
+def _size_spread(sigma: str) -> str:
+    return f'shot.size_spread={{ kind = "normal", sigma = "{sigma}" }}'
+
+
+def _speed_spread(sigma: str) -> str:
+    return f'nozzle.0.speed_spread={{ kind = "normal", sigma = "{sigma}" }}'
+
+
 @pytest.fixture
 def hole(tmp_path: Path) -> Path:
     return _written(tmp_path, HOLE)
@@ -83,7 +91,7 @@ def test_reads_a_case_in_si_from_directory_or_file(hole: Path) -> None:
         ("length = ", "lenght = ", "line 6, target.geometry.lenght: unknown key; did you mean length?"),
         ('"62.5 m/s"', "62.5", "line 12, nozzle.0.speed: 62.5 has no unit: write it as a string with one, like"),
         ('"62.5 m/s"', '"62.5 kg"', "line 12, nozzle.0.speed: '62.5 kg': the unit is kilogram, it must be conv"),
-        ('"bolt-hole"', '"hole"', 'line 6, target.geometry.kind: must be "plate", "bolt-hole", not "hole"'),
+        ('"bolt-hole"', '"hole"', 'line 6, target.geometry.kind: must be "plate", "bolt-hole", "fillet", "step", not "hole"'),
         ('speed = "62.5 m/s"\n', "", "line 8, nozzle.0.speed: this key is missing: add it"),
         ('"31 mm"', "31", "line 9, nozzle.0.position.2: 31 has no unit"),
         ('at = ["12.5 mm", "90 deg"]', 'at = "middle"', 'line 7, target.patch.at: must be "densest" or an array'),
@@ -138,19 +146,51 @@ def test_all_problems_are_named_at_once(hole: Path) -> None:
         (["shot.size=CW15"], "unknown shot size 'CW15'; did you mean CW14"),
         (["shot.size=CW14", "shot.diameter=1 mm"], "give exactly one of diameter and size; both are given"),
         (["accuracy.boundary=fixed", "effects.far_field=on"], '"fixed" contradicts effects.far_field'),
-        (["single_shot.speed=60 m/s"], "excludes nozzle: a case has one of nozzle, impacts, single_shot"),
+        (["accuracy.dem_time_step=0.53"], "dem_time_step: is 0.53 of the Rayleigh step: above 0.5"),
+        (["single_shot.speed=60 m/s"], "excludes nozzle: a case has one of nozzle, impacts, contacts, single_shot"),
         (["impacts.file=/etc/passwd"], "'/etc/passwd' leads out of the case directory"),
         (["impacts.file=../shots.csv"], "'../shots.csv' leads out of the case directory"),
         (["impacts.file=shots.csv"], "there is no file 'shots.csv' in the case directory"),
         (["report.units=MPa"], 'write a unit of stress and one of length, like "MPa, mm"'),
         (["nozzle.0.cone=200 deg"], 'must be less than 3.1 in SI units, not "200 deg"'),
         (["size_spread.kind=normal"], "size_spread: unknown key"),
+        (["shot.size_spread.kind=normal"], "shot.size_spread.sigma: this key is missing"),
+        ([_size_spread("0.12 mm")], "0.12 mm is too wide for shots of 0.3556 mm: the smallest would be 0.0128 mm"),
+        ([_size_spread("0.12 mm")], "at most 0.112 mm"),
+        ([_size_spread("-1 mm")], 'must be more than 0, not "-1 mm"'),
+        ([_size_spread("0.02")], "'0.02': the unit is none, it must be convertible to m"),
+        ([_size_spread("0.1 mm"), "deflector.diameter=6.5 mm"], "a shot of 0.6413 mm does not pass the gap of 0.5 mm"),
+        ([_speed_spread("20 m/s")], "20 m/s is too wide for 62.5 m/s: some shots would fly backwards; at most 12.5"),
+        (["air.density=0 kg/m^3"], 'must be more than 0, not "0 kg/m^3"'),
+        (["air.viscosity=1.8e-5"], "has no unit: write it as a string with one"),
+        (["target.kinematic_hardening.recall=10"], "modulus/recall = 7860 MPa, not below the yield stress"),
+        (["target.johnson_cook.A=200 MPa"], 'or set effects.kinematic_hardening = "off"'),
+        (
+            ["target.material=ofhc-copper", "target.kinematic_hardening.recall=10"],
+            "give target.kinematic_hardening.modulus too",
+        ),
     ],
 )
 def test_impossible_values_say_what_and_where(hole: Path, settings: list[str], expected: str) -> None:
     message = _complaint(hole, *settings)
     assert expected in message
     assert f"--set {settings[0]}" in message or "case.toml line" in message
+
+
+def test_a_spread_that_is_too_wide_is_named_with_its_line(hole: Path) -> None:
+    text = HOLE.replace("[target]", 'size_spread = { kind = "normal", sigma = "0.2 mm" }\n[target]')
+    assert "case.toml line 4, shot.size_spread.sigma: 0.2 mm is too wide" in _complaint(_written(hole, text))
+
+
+def test_a_weak_set_is_no_matter_where_the_backstress_is_off(hole: Path) -> None:
+    case, _ = read_case(hole, ["target.johnson_cook.A=200 MPa", "effects.kinematic_hardening=off"])
+    assert case.target.johnson_cook.model_dump(exclude_none=True) == {"A": pytest.approx(2e8)}
+
+
+def test_a_single_shot_has_one_size(tmp_path: Path) -> None:
+    text = '[shot]\ndiameter = "1 mm"\nsize_spread = { kind = "normal", sigma = "0.1 mm" }\n[target]\n'
+    _written(tmp_path, text + 'material = "inconel718"\n[single_shot]\nspeed = "60 m/s"\n')
+    assert "line 3, shot.size_spread: sizes scatter in a stream only" in _complaint(tmp_path)
 
 
 def test_the_line_of_the_files_own_value_is_named(hole: Path) -> None:
@@ -195,7 +235,7 @@ def test_what_is_missing_is_named(tmp_path: Path, cut: str, expected: str) -> No
 
 def test_a_case_that_shoots_nothing_is_refused(tmp_path: Path) -> None:
     _written(tmp_path, '[shot]\nsize = "CW14"\n[target]\nmaterial = "inconel718"\n')
-    assert "nothing is shot: add one of [[nozzle]], [impacts], [single_shot]" in _complaint(tmp_path)
+    assert "nothing is shot: add one of [[nozzle]], [impacts], [contacts], [single_shot]" in _complaint(tmp_path)
 
 
 @pytest.mark.parametrize("quoted", ['shot.diameter="0.43 mm"', "shot.diameter=0.43 mm", "shot.diameter = 0.43 mm"])

@@ -71,7 +71,7 @@ def test_rod_facets_are_no_shorter_than_the_shot():
 
 @pytest.mark.parametrize("direction", [(0, 0, -1), (1, 0, 0), (0.6, 0, -0.8), (0, -0.6, 0.8)])
 def test_disc_faces_the_direction_of_flight(direction):
-    nozzle = Nozzle((1e-3, 2e-3, 3e-3), direction, 3.2e-3, 62.5, 40000.0, 0.0)
+    nozzle = Nozzle((1e-3, 2e-3, 3e-3), direction, 3.2e-3, 62.5, 0.0, 40000.0, 0.0)
     triangles = bodies.disc(nozzle)
     area = normals(triangles).sum(axis=0)
     np.testing.assert_allclose(area, np.linalg.norm(area) * np.array(direction), atol=1e-15)
@@ -80,7 +80,7 @@ def test_disc_faces_the_direction_of_flight(direction):
 
 
 def test_guard_stands_before_the_nozzle_and_is_wider():
-    nozzle = Nozzle((1e-3, 2e-3, 3e-3), (0.6, 0, -0.8), 3.2e-3, 62.5, 40000.0, 0.0)
+    nozzle = Nozzle((1e-3, 2e-3, 3e-3), (0.6, 0, -0.8), 3.2e-3, 62.5, 0.0, 40000.0, 0.0)
     triangles = bodies.guard(nozzle, 0.8e-3)
     ahead = (triangles - np.array(nozzle.position)) @ np.array(nozzle.direction)
     np.testing.assert_allclose(ahead, 0.8e-3, atol=1e-12)

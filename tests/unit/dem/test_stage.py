@@ -14,8 +14,9 @@ from peenflow.records.contacts import Contacts
 from peenflow.records.target import Facets, Target
 from peenflow.records.upstream import Upstream
 from peenflow.resolve import resolve
-from peenflow.scene import Skip
+from peenflow.scene import EngineChoice, Skip
 
+LIGGGHTS = EngineChoice("liggghts", "the test says so", False)
 HOLE = {
     "shot": {"diameter": "0.3556 mm", "material": "steel"},
     "target": {
@@ -105,17 +106,40 @@ def test_effects_reach_the_stream():
     assert (stream.rod.start, stream.rod.speed) == (19e-3, 0.0)
 
 
-def test_calibrated_restitution_is_the_mean_over_the_hits():
-    def hit(cor):
-        numbers = {f.name: 0.0 for f in dataclasses.fields(SingleHit)}
-        return SingleHit(**(numbers | {"cor": cor}))
+def hit(cor, speed=62.5):
+    numbers = {f.name: 0.0 for f in dataclasses.fields(SingleHit)}
+    return SingleHit(**(numbers | {"cor": cor, "speed": speed, "dent_diameter": 120e-6}))
 
+
+def calibrated():
     empty = {f.name: 0.0 for f in dataclasses.fields(Calibration)}
-    calibration = Calibration(**(empty | {"hits": (hit(0.3), hit(0.4), hit(0.5))}))
-    calibrated = scene(dem={"restitution": "calibrated"})
-    assert stage.inputs(calibrated, upstream(calibration)).stream.walls.restitution == pytest.approx(0.4)
+    speeds = (hit(0.4, 25.0), hit(0.3))
+    return Calibration(**(empty | {"speeds": speeds, "hits": (hit(0.3), hit(0.4), hit(0.5))}))
+
+
+def test_calibrated_restitution_is_the_mean_over_the_hits():
+    asked = scene(dem={"restitution": "calibrated"}, effects={"cor_hardening": "off"})
+    walls = stage.inputs(asked, upstream(calibrated())).stream.walls
+    assert walls.restitution == pytest.approx(0.4)
+    assert walls.rebound is None
     with pytest.raises(InputError, match="no calibration"):
-        stage.inputs(calibrated, upstream())
+        stage.inputs(asked, upstream())
+
+
+def test_where_restitution_hardens_it_is_a_table():
+    asked = scene(dem={"restitution": "calibrated"}, effects={"cor_hardening": "on"})
+    rebound = stage.inputs(asked, upstream(calibrated())).stream.walls.rebound
+    np.testing.assert_array_equal(rebound.speed, [25.0, 62.5])
+    np.testing.assert_array_equal(rebound.first, [0.4, 0.3])
+    np.testing.assert_allclose(rebound.factor, [1, 4 / 3, 5 / 3])
+    assert rebound.dent_radius == pytest.approx(60e-6)
+
+
+@pytest.mark.parametrize("name", ["liggghts", "event-driven"])
+def test_the_engine_is_the_scenes(name):
+    inputs = stage.inputs(scene(dem={"restitution": 0.4, "engine": name}), upstream())
+    assert inputs.engine.name == name
+    assert inputs.engine.why.startswith("the case says so")
 
 
 def test_given_impacts_and_single_shots_need_no_stream():
@@ -142,5 +166,5 @@ def test_merged_shards_are_ordered_and_their_shots_unique():
 def test_missing_liggghts_names_the_package(hole_stream, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(InputError, match="apt-get install liggghts") as caught:
-        stage.run(stage.Inputs(hole_stream(), 1), tmp_path, Silent())
+        stage.run(stage.Inputs(hole_stream(), 1, LIGGGHTS), tmp_path, Silent())
     assert caught.value.exit_status == 2

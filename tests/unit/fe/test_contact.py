@@ -86,3 +86,25 @@ def test_a_node_out_of_reach_is_left_alone():
     assert lost == 0.0
     assert not nodes.v.any()
     assert balls.centre[0, 2] == pytest.approx(1e-4 + 1e-6 - 60e-9)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_two_spheres_on_the_same_nodes_book_what_they_lose(friction):
+    """Once each sphere's work was taken with the velocity before the other pushed, and energy seemed to grow."""
+    rng = np.random.default_rng(2)
+    nodes = surface(np.c_[rng.uniform(-2e-5, 2e-5, (40, 2)), np.zeros(40)])
+    one, other = (ball(v, mass=1e-8, height=-1e-6) for v in ([20.0, 0, -60.0], [-30.0, 5.0, -40.0]))
+    other.centre[0, 0] = 1e-5
+    balls = Balls(*(np.concatenate(pair) for pair in zip(one, other, strict=True)))
+    shared = Candidates(np.array([0, 40, 80]), np.tile(np.arange(40), 2), np.zeros((80, 3)), np.zeros(80))
+
+    def kinetic():
+        turning = 0.4 * balls.mass * balls.radius**2 * (balls.spin**2).sum(axis=1)
+        moving = balls.mass * (balls.velocity**2).sum(axis=1)
+        return 0.5 * float((turning + moving).sum() + (nodes.mass[:, None] * nodes.v**2).sum())
+
+    before = kinetic()
+    lost, rubbed = correct(balls, shared, nodes, DT, friction, np.zeros((2, 3)))
+    assert (shared.pressed[:40] > 0).any()
+    assert (shared.pressed[40:] > 0).any()
+    assert lost + rubbed == pytest.approx(before - kinetic(), rel=2e-3 if friction else 1e-9)

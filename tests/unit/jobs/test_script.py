@@ -66,12 +66,22 @@ def test_bash_reads_it_and_every_value_arrives_as_it_was(scheduler: Scheduler, t
     modules = tmp_path / "modules"
     define = f'module() {{ printf "%s\\n" "$@" >> {shlex.quote(str(modules))}; }}; export -f module; bash "$0"'
     script = tmp_path / "job.sh"
-    allocation = Allocation(modules=("gcc/12 $(id)", "it's"))
+    allocation = Allocation(modules=("gcc/12.2+x", "mpi"))
     script.write_text(render(job(*show, *NASTY, out=str(tmp_path)), allocation, scheduler))
     subprocess.run(["bash", "-n", str(script)], check=True)
     subprocess.run(["bash", "-c", define, str(script)], check=True, env=os.environ)
     assert arguments.read_text() == repr(list(NASTY))
-    assert modules.read_text().splitlines() == ["load", "gcc/12 $(id)", "load", "it's"]
+    assert modules.read_text().splitlines() == ["load", "gcc/12.2+x", "load", "mpi"]
+
+
+@pytest.mark.parametrize(
+    "module",
+    ["./evil", "/tmp/evil", "../evil", "a/../b", "--help", "-f", "gcc/12 $(id)", "a;b", "a\nb", "", "a//b", "~x"],
+)
+def test_a_module_is_a_name_and_no_file_or_option(module: str, scheduler: Scheduler):
+    """`module load ./file` would run that file."""
+    with pytest.raises(InputError, match="no module's name"):
+        render(job(), Allocation(modules=(module,)), scheduler)
 
 
 def test_threads_are_those_of_the_allocation(tmp_path: Path):

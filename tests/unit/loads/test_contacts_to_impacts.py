@@ -8,7 +8,7 @@ import pytest
 from peenflow.case.impacts_csv import ImpactTable
 from peenflow.errors import RunError
 from peenflow.geometry import BoltHole, Plate
-from peenflow.loads.impacts import Rules, from_contacts, from_table
+from peenflow.loads.impacts import Rules, from_contacts, from_table, join_rows, remove_edge_doubles, rows_on_target
 from peenflow.records.contacts import Contacts
 
 STEP = 1e-8
@@ -109,6 +109,52 @@ def test_hits_on_a_holes_rims_and_beyond_are_dropped_and_counted():
     assert impacts.point[:, 2] == pytest.approx([0.07e-3])
     assert (impacts.rim_dropped, impacts.slow_dropped) == (4, 1)
     assert from_table(table, Plate(1.0), 2e-4, Rules(0.0, 0.06e-3)).rim_dropped == 0
+
+
+def test_rows_on_the_target_are_sorted_by_shot_time_and_falling_force():
+    rows = [
+        (2, 8, 1, 0, 10, -50),
+        (1, 7, 0, 0, 99, -50),
+        (2, 7, 1, 0, 10, -50),
+        (2, 7, 1, 0, 30, -50),
+        (1, 7, 1, 0, 1, 0),
+    ]
+    assert rows_on_target(contacts(rows)).tolist() == [4, 3, 2, 0]
+
+
+def test_an_edges_doubles_become_one_row_with_the_sum_of_their_forces():
+    given = contacts(
+        [(1, 7, 1, 0.1, 10, -50), (1, 7, 1, 0.2, 30, -51), (1, 8, 1, 0.3, 5, -40), (2, 7, 1, 0.4, 20, -30)]
+    )
+    samples = remove_edge_doubles(given, rows_on_target(given))
+    assert samples.row.tolist() == [1, 3, 2]  # of shot 7 at two times, then shot 8
+    assert samples.force[:, 2].tolist() == [40, 20, 5]
+
+
+def test_rows_are_joined_where_a_shots_outputs_follow_each_other():
+    given = contacts([(1, 7, 1, 0, 1, -9), (2, 7, 1, 0, 2, -5), (9, 7, 1, 0, 3, -8), (2, 8, 1, 0, 4, -9)])
+    assert join_rows(given, remove_edge_doubles(given, rows_on_target(given))).tolist() == [0, 0, 1, 2]
+
+
+def test_a_dump_with_known_impacts_gives_exactly_those():
+    """Shot 1 over three outputs, on an edge in the second; 2 and 3 at once; 4 twice; 5 on the rod, then softly."""
+    dump = [
+        (10, 1, 1, 0.1, 10, -50), (11, 1, 1, 0.2, 25, -30), (11, 1, 1, 0.3, 15, -31), (12, 1, 1, 0.1, 5, 15),
+        (20, 2, 1, 1.0, 12, -40), (20, 3, 1, 2.0, 14, -42), (21, 2, 1, 1.0, 18, -10), (21, 3, 1, 2.0, 9, 3),
+        (30, 4, 1, 3.0, 30, -60), (31, 4, 1, 3.0, 20, 20), (60, 4, 1, 4.0, 8, -20), (61, 4, 1, 4.0, 6, 5),
+        (25, 5, 0, 0.0, 50, -60), (40, 5, 1, 5.0, 2, -4),
+    ]  # fmt: skip
+    impacts = joined(np.random.default_rng(5).permutation(dump).tolist())
+    columns = (impacts.shot, impacts.t / (2 * STEP), impacts.point[:, 0], impacts.normal_speed, impacts.peak_force)
+    assert [tuple(row) for row in np.round(np.stack(columns, axis=-1), 9)] == [
+        (1, 10, 0.2, 50, 40),
+        (2, 20, 1.0, 40, 18),
+        (3, 20, 2.0, 42, 14),
+        (4, 30, 3.0, 60, 30),
+        (4, 60, 4.0, 20, 8),
+    ]
+    assert (impacts.rows, impacts.duplicates_removed, impacts.merged_rows, impacts.slow_dropped) == (13, 1, 6, 1)
+    assert impacts.shots_hitting == 5
 
 
 def test_no_contact_on_the_target_says_what_to_do():

@@ -95,10 +95,3 @@ def test_loads_press_with_the_impacts_force_and_momentum():
     assert loads.shape[0] == 1
     assert loads.shape[-1] == 0
     assert loads.growth.max() == pytest.approx(1, rel=1e-4)
-
-
-def test_nearest_nodes_are_the_nearest():
-    rng = np.random.default_rng(3)
-    nodes, points = rng.uniform(-1, 1, (500, 3)), rng.uniform(-1.3, 1.3, (60, 3))
-    brute = np.linalg.norm(points[:, None] - nodes[None], axis=-1).argmin(axis=1)
-    assert np.array_equal(pressure.nearest_nodes(points, nodes), brute)

@@ -14,14 +14,16 @@ from peenflow.loads import stage
 from peenflow.records.material import Material
 from peenflow.records.target import Target
 from peenflow.records.upstream import Upstream
-from peenflow.scene import Decision, Knobs, Scene, ShotProperties, Skip
+from peenflow.scene import Decision, Knobs, Scene, ShotProperties, Skip, Thrown
 
 KNOBS = Knobs(
     mesh_size=2e-5, calibration_mesh_size=1e-5, depth=7.5e-4, boundary="far-field", sides="symmetric", load="impact",
     time_step=0.8, relaxation=1e-3, dem_time_step=0.2, contact_interval=2, group_distance=1.5, min_normal_speed=5.0,
+    active_radius=0.0,
 )  # fmt: skip
 LINES = np.array([-1e-3, 1e-3])
 MESHED = Upstream(target=Target(build_block(LINES, LINES, np.array([1e-3])), None, 1.0))
+SHOT = ShotProperties(3.556e-4, 7800, 210e9, 0.3)
 HOLE = {"kind": "bolt-hole", "diameter": "7.5 mm", "length": "25 mm"}
 PLATE = {"kind": "plate", "thickness": "5 mm"}
 
@@ -32,10 +34,12 @@ def scene(surface, geometry, patch, directory=Path("."), friction=False, **table
         case=Case.model_validate({**case, **tables}),
         directory=directory,
         surface=surface,
-        shot=ShotProperties(3.556e-4, 7800, 210e9, 0.3),
+        shot=SHOT,
+        thrown=Thrown(SHOT, np.array([SHOT.diameter]), np.ones(1)),
         material=Material("inconel718", 8200, 211e9, 0.29, 1241e6, 622e6, 0.6522, None, None),
         knobs=KNOBS,
         effects={"contact_friction": Decision(friction, "auto", None, 0.02, "", "")},
+        not_modelled={},
         speed=62.5,
         dent_radius=6e-5,
         contact_time=4.5e-7,

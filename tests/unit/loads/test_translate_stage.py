@@ -47,6 +47,9 @@ def case(surface, hits, **changes):
         boundary="far-field",
         time_step=0.8,
         relaxation=1e-3,
+        active_radius=0.0,
+        hourglass=0.05,
+        precision="float64",
     )
     return dataclasses.replace(base, **changes)
 
@@ -133,7 +136,7 @@ def test_no_impact_on_the_patch_says_what_to_do(tmp_path):
 
 def test_only_slow_impacts_say_what_to_do(tmp_path):
     plate = Plate(1e-3)
-    with pytest.raises(RunError, match=r"5 are slower than 100 m/s .* and 0 are on the hole's rims"):
+    with pytest.raises(RunError, match=r"5 are slower than 100 m/s .* and 0 are on its rims"):
         stage.run(case(plate, table(plate, UV, SPEEDS), min_normal_speed=100.0), tmp_path, Silent())
 
 

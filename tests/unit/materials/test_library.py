@@ -1,6 +1,7 @@
+import numpy as np
 import pytest
 
-from peenflow.case.model import Constants, JohnsonCookConstants
+from peenflow.case.model import Constants, JohnsonCookConstants, KinematicHardeningConstants
 from peenflow.errors import InputError
 from peenflow.materials.library import material, table
 
@@ -65,3 +66,58 @@ def test_an_unknown_name_offers_the_nearest() -> None:
 def test_an_elastic_target_says_what_it_lacks() -> None:
     with pytest.raises(InputError, match=r"'glass' has no constants of plasticity; give target.johnson_cook.A"):
         material("glass", NOTHING, JohnsonCookConstants())
+
+
+CYCLIC = {  # K' [MPa], n' of the measured cyclic curve that each backstress is fitted to
+    "inconel718": (1530, 0.07),
+    "inconel718-aged": (1530, 0.07),
+    "inconel718-980": (1530, 0.07),
+    "inconel718-1200": (1530, 0.07),
+    "steel-4340": (1655, 0.131),
+    "ti6al4v": (1772, 0.106),
+    "ti6al4v-997": (1772, 0.106),
+    "al2024-t351": (662, 0.070),
+    "al7075-t6": (977, 0.106),
+}
+AMPLITUDES = np.geomspace(1e-4, 2e-2, 60)
+
+
+def fitted(strength: float, exponent: float) -> tuple[float, float]:
+    """modulus/recall [MPa] and recall of the loop's amplitude k + modulus/recall·tanh(recall ε) fitted to the curve."""
+    stress = strength * AMPLITUDES**exponent
+
+    def remainder(recall: float) -> tuple[float, float]:
+        terms = np.stack([np.ones_like(AMPLITUDES), np.tanh(recall * AMPLITUDES)], axis=1)
+        (_, saturated), (squares,), _, _ = np.linalg.lstsq(terms, stress)
+        return squares, saturated
+
+    recall = min(np.geomspace(20, 2000, 3000), key=lambda g: remainder(g)[0])
+    return remainder(recall)[1], float(recall)
+
+
+def test_backstresses_are_the_fit_to_the_cyclic_curves_they_name() -> None:
+    assert {name for name, row in table().items() if "kinematic_hardening" in row} == set(CYCLIC)
+    for name, (strength, exponent) in CYCLIC.items():
+        kinematic = material(name, NOTHING, JohnsonCookConstants()).kinematic
+        assert kinematic is not None
+        saturated, recall = fitted(strength, exponent)
+        assert kinematic.recall == pytest.approx(recall, rel=5e-3)
+        assert kinematic.modulus / kinematic.recall == pytest.approx(saturated * 1e6, rel=5e-3)
+        assert f"K' {strength} MPa" in table()[name]["kinematic_source"]
+
+
+def test_a_backstress_takes_over_less_than_the_yield_stress() -> None:
+    for name in CYCLIC:
+        found = material(name, NOTHING, JohnsonCookConstants())
+        assert found.kinematic is not None
+        assert found.kinematic.modulus / found.kinematic.recall < 0.5 * found.A
+
+
+def test_the_case_brings_or_overwrites_the_backstress() -> None:
+    own = KinematicHardeningConstants.model_validate({"modulus": "50 GPa"})
+    found = material("inconel718", NOTHING, JohnsonCookConstants(), kinematic=own)
+    assert found.kinematic is not None
+    assert (found.kinematic.modulus, found.kinematic.recall) == (pytest.approx(50e9), 286)
+    assert material("ofhc-copper", NOTHING, JohnsonCookConstants()).kinematic is None
+    with pytest.raises(InputError, match=r"give target\.kinematic_hardening\.recall too"):
+        material("ofhc-copper", NOTHING, JohnsonCookConstants(), kinematic=own)

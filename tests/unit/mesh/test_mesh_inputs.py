@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from peenflow.case.model import Case
@@ -9,17 +10,19 @@ from peenflow.geometry import BoltHole, Plate
 from peenflow.mesh import stage
 from peenflow.records.material import Material
 from peenflow.records.upstream import Upstream
-from peenflow.scene import Knobs, Scene, ShotProperties, Skip
+from peenflow.scene import Knobs, Scene, ShotProperties, Skip, Thrown
 
 KNOBS = Knobs(
     mesh_size=2e-5, calibration_mesh_size=1e-5, depth=7.5e-4, boundary="far-field", sides="symmetric", load="impact",
     time_step=0.8, relaxation=1e-3, dem_time_step=0.2, contact_interval=2, group_distance=1.5, min_normal_speed=5.0,
+    active_radius=0.0,
 )  # fmt: skip
 NOZZLE = {
     "position": ["1 mm", "0 mm", "20 mm"], "direction": [0, 0, -1], "diameter": "3 mm", "speed": "60 m/s",
     "rate": "1000 1/s",
 }  # fmt: skip
 PLATE = {"kind": "plate", "thickness": "5 mm"}
+SHOT = ShotProperties(3.556e-4, 7800, 210e9, 0.3)
 HOLE = {"kind": "bolt-hole", "diameter": "7.5 mm", "length": "25 mm"}
 
 
@@ -31,10 +34,12 @@ def scene(surface, directory=Path("."), geometry=PLATE, patch=None, **tables):
         case=Case.model_validate({"shot": {"diameter": "0.3556 mm"}, "target": target, **tables}),
         directory=directory,
         surface=surface,
-        shot=ShotProperties(3.556e-4, 7800, 210e9, 0.3),
+        shot=SHOT,
+        thrown=Thrown(SHOT, np.array([SHOT.diameter]), np.ones(1)),
         material=Material("inconel718", 8200, 211e9, 0.29, 1241e6, 622e6, 0.6522, None, None),
         knobs=KNOBS,
         effects={},
+        not_modelled={},
         speed=62.5,
         dent_radius=6e-5,
         contact_time=4.5e-7,

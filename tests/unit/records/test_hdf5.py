@@ -1,6 +1,8 @@
 """Records on disk: every kind of field comes back, every file carries what its values mean, and damage is told."""
 
 import dataclasses
+import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -23,8 +25,8 @@ class Part:
 @dataclass(frozen=True)
 class Whole:
     array: Annotated[np.ndarray, of("Pa", "a stress", "(n, 3)")]
-    large: Annotated[np.ndarray, of("1", "enough to be compressed", "(n,) int32")]
-    flags: Annotated[np.ndarray, of("1", "which", "(n,) bool")]
+    large: Annotated[np.ndarray, of("1", "enough to be compressed", "(l,) int32")]
+    flags: Annotated[np.ndarray, of("1", "which", "(f,) bool")]
     number: Annotated[float, of("s", "a time")]
     count: Annotated[int, of("1", "how many")]
     switch: Annotated[bool, of("1", "whether")]
@@ -128,3 +130,27 @@ def test_saving_replaces_the_file_whole(path: Path):
     hdf5.save(dataclasses.replace(WHOLE, count=8), path)
     assert hdf5.load(Whole, path).count == 8
     assert [entry.name for entry in path.parent.iterdir()] == ["whole.h5"]
+
+
+FILLING = """
+import resource, sys
+from pathlib import Path
+import numpy as np
+from peenflow.errors import RunError
+from peenflow.records import hdf5
+from peenflow.records.target import Facets
+resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+try:
+    hdf5.save(Facets(np.random.default_rng(1).random((20_000, 3, 3))), Path(sys.argv[1]))
+except RunError as error:
+    print(error)
+"""
+
+
+def test_a_disk_that_refuses_more_ends_in_words_and_leaves_nothing(tmp_path: Path):
+    """HDF5 itself would end the process there: with pages of traces, or a segmentation fault."""
+    arguments = [sys.executable, "-c", FILLING, str(tmp_path / "facets.h5")]
+    ended = subprocess.run(arguments, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert "facets.h5 could not be written" in ended.stdout
+    assert list(tmp_path.iterdir()) == []

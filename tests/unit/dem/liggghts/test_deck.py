@@ -1,16 +1,17 @@
 import dataclasses
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from peenflow.dem.engine import Nozzle, Walls
+from peenflow.dem.engine import Air, Nozzle, Walls
 from peenflow.dem.liggghts import deck as decks
 from peenflow.dem.liggghts.deck import build, packets_of
 from peenflow.errors import InputError
 
 PLATE = np.array([[[-1, -1, 0], [1, -1, 0], [1, 1, 0]], [[-1, -1, 0], [1, 1, 0], [-1, 1, 0]]]) * 10e-3
-DOWN = Nozzle((0.0, 0.0, 20e-3), (0.0, 0.0, -1.0), 3.2e-3, 62.5, 40000.0, 0.0)
+DOWN = Nozzle((0.0, 0.0, 20e-3), (0.0, 0.0, -1.0), 3.2e-3, 62.5, 0.0, 40000.0, 0.0)
 
 
 def lines(deck):
@@ -62,7 +63,7 @@ def test_still_rod_does_not_move(hole_stream):
 
 
 def test_plate_without_deflector(hole_stream):
-    deck = build(hole_stream(walls=Walls(PLATE, False, 211e9, 0.29, 0.4, 0.3), rod=None, nozzles=(DOWN,)), 0)
+    deck = build(hole_stream(walls=Walls(PLATE, False, 211e9, 0.29, 0.4, None, 0.3), rod=None, nozzles=(DOWN,)), 0)
     assert line(deck, "fix", "target")[-2:] == ["type", "2"]
     assert line(deck, "fix", "walls")[-4:] == ["n_meshes", "1", "meshes", "target"]
     assert "deflector" not in deck.files["deck.in"]
@@ -77,7 +78,7 @@ def test_only_what_is_called_for(hole_stream):
 
 
 def test_several_nozzles_each_with_their_seed_and_velocity(hole_stream):
-    side = Nozzle((15e-3, 0.0, 20e-3), (-0.6, 0.0, -0.8), 2e-3, 50.0, 10000.0, math.radians(10))
+    side = Nozzle((15e-3, 0.0, 20e-3), (-0.6, 0.0, -0.8), 2e-3, 50.0, 0.0, 10000.0, math.radians(10))
     deck = build(hole_stream(nozzles=(DOWN, side)), 0)
     text = deck.files["deck.in"]
     assert "vel constant 0.0 0.0 -62.5 &" in text
@@ -155,7 +156,7 @@ def test_restitution_that_liggghts_refuses(hole_stream):
 
 
 def test_every_nozzle_has_its_guard_after_the_insertions(hole_stream):
-    side = Nozzle((15e-3, 0.0, 20e-3), (-0.6, 0.0, -0.8), 2e-3, 50.0, 10000.0, 0.0)
+    side = Nozzle((15e-3, 0.0, 20e-3), (-0.6, 0.0, -0.8), 2e-3, 50.0, 0.0, 10000.0, 0.0)
     deck = build(hole_stream(nozzles=(DOWN, side)), 0)
     assert line(deck, "fix", "back1")[-4:] == ["0.6", "-0.0", "0.8", "&"]
     text = deck.files["deck.in"]
@@ -163,3 +164,62 @@ def test_every_nozzle_has_its_guard_after_the_insertions(hole_stream):
     assert text.count("count once delete_atoms yes") == 2
     reach = (decks.GUARD - decks.SKIN / 2) * hole_stream().shot.diameter
     assert reach > hole_stream().shot.diameter  # a shot just deleted flies on for half a skin, and touches none
+
+
+SIZES = np.array([0.25e-3, 0.35e-3, 0.5e-3])
+SHARES = np.array([0.2, 0.7, 0.1])
+
+
+@pytest.mark.parametrize("name", ["bolt_hole", "two_nozzles"])
+def test_a_stream_without_spread_and_drag_renders_the_deck_it_did_before_there_were_any(hole_stream, name):
+    side = Nozzle((15e-3, 0.0, 20e-3), (-0.6, 0.0, -0.8), 2e-3, 50.0, 0.0, 10000.0, 0.0)
+    two = hole_stream(
+        walls=Walls(PLATE, False, 211e9, 0.29, 0.4, None, 0.3),
+        rod=None,
+        gravity=True,
+        shot_collisions=False,
+        seed=7,
+        nozzles=(dataclasses.replace(DOWN, cone=math.radians(10)), side),
+    )
+    stream, shard = {"bolt_hole": (hole_stream(), 0), "two_nozzles": (two, 1)}[name]
+    assert build(stream, shard).files["deck.in"] == (Path(__file__).parent / "decks" / f"{name}.in").read_text()
+
+
+def test_sizes_are_particle_templates_by_number(hole_stream):
+    deck = build(hole_stream(diameters=SIZES, shares=SHARES), 0)
+    templates = [words for words in lines(deck) if words[3:4] == ["particletemplate/sphere"]]
+    assert [float(words[-1]) for words in templates] == pytest.approx(SIZES / 2)
+    assert len({words[4] for words in templates}) == 3
+    distribution = line(deck, "fix", "shots")
+    assert distribution[3] == "particledistribution/discrete/numberbased"
+    assert distribution[5:] == ["3", "shot0", "0.2", "shot1", "0.7", "shot2", "0.1"]
+    # room for the largest: behind the nozzle, around it, and in the lists of neighbours
+    assert float(line(deck, "neighbor")[1]) == pytest.approx(decks.SKIN * 0.5e-3)
+
+
+def test_drag_is_a_force_on_every_shot(hole_stream):
+    deck = build(hole_stream(air=Air(1.2, 1.8e-5)), 0)
+    assert line(deck, "fix", "drag")[3:] == ["addforce", "v_dragx", "v_dragy", "v_dragz"]
+    assert line(deck, "variable", "dragy")[3] == "v_drag*vy"
+    text = deck.files["deck.in"]
+    assert text.index("fix drag") < text.index("\nrun ")
+    still = build(hole_stream(), 0).files["deck.in"]
+    assert not any(word in still for word in ("drag", "addforce", "reynolds", "radius all"))
+
+
+def test_a_spread_of_speed_along_an_axis_scatters_nothing_else(hole_stream):
+    nozzle = dataclasses.replace(DOWN, speed_spread=3.0)
+    deck = build(hole_stream(nozzles=(nozzle,)), 0)
+    assert "vel gaussian 0.0 0.0 -62.5 0.0 0.0 3.0 &" in deck.files["deck.in"]
+    cone = dataclasses.replace(nozzle, cone=math.radians(20))
+    *_, x, _, z = packets_of(hole_stream(nozzles=(cone,)), 0).velocity
+    assert (x, z) == pytest.approx((62.5 * math.tan(math.radians(10)) / 2, 3.0))
+
+
+@pytest.mark.parametrize("direction", [(-0.6, 0.0, -0.8), (0.6, 0.64, 0.48)])
+def test_a_spread_along_no_axis_keeps_that_of_the_speed(hole_stream, direction):
+    nozzle = dataclasses.replace(DOWN, direction=direction, speed_spread=3.0)
+    scatter = np.array(packets_of(hole_stream(nozzles=(nozzle,)), 0).velocity[3:])
+    n = np.array(direction)
+    assert math.sqrt(np.sum((n * scatter) ** 2)) == pytest.approx(3.0)
+    assert math.sqrt(np.sum(scatter**2)) <= 3.0 * math.sqrt(3) + 1e-9  # as much to either side at most

@@ -1,3 +1,5 @@
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -42,3 +44,15 @@ def test_the_limit_is_what_a_shot_can_reach_between_rows(hole_stream, interval):
 def test_no_rows(hole_stream):
     empty = np.empty(0, np.int64)
     assert spoilt(hole_stream(), empty, empty, empty, np.empty(0)).shape == (0,)
+
+
+def test_shots_that_scatter_may_be_faster(hole_stream):
+    """Speeds to 4 σ above the mean; of unequal shots the lighter one leaves with √(1 + m₂/m₁) of what is thrown."""
+    plain = hole_stream()
+    (nozzle,) = plain.nozzles
+    scattered = dataclasses.replace(nozzle, speed_spread=3.0)
+    stream = hole_stream(nozzles=(scattered,), diameters=np.array([0.3e-3, 0.6e-3]), shares=np.array([0.5, 0.5]))
+    reach = (3.0 * (62.5 + 12.0) + 2.0) * 2 * stream.time_step
+    table = rows((4, 1, 0, 0.99 * reach), (4, 2, 0, 1.01 * reach))
+    assert spoilt(stream, *table).tolist() == [False, True]
+    assert spoilt(plain, *table).all()

@@ -11,7 +11,7 @@ import pytest
 
 from peenflow.dem.engine import Walls
 from peenflow.dem.liggghts import dump
-from peenflow.dem.liggghts.restore import Law, restore
+from peenflow.dem.liggghts.restore import Law, diameters, restore
 from peenflow.scene import ShotProperties
 
 REFERENCE = Path(__file__).parents[3] / "reference"
@@ -19,8 +19,9 @@ SHOT = ShotProperties(0.3556e-3, 7800, 210e9, 0.3)
 DT = 3.75e-8
 
 
-def law(restitution):
-    return Law.of(SHOT, Walls(np.zeros((0, 3, 3)), False, 210e9, 0.3, restitution, 0.3))
+def law(restitution, count=1):
+    walls = Walls(np.zeros((0, 3, 3)), False, 210e9, 0.3, restitution, None, 0.3)
+    return Law.of(SHOT, walls, np.full(count, SHOT.diameter))
 
 
 def single(name, last_step):
@@ -116,3 +117,23 @@ def test_the_reference_scene(tmp_path):
     assert np.percentile(errors, 99) < 0.044
     assert np.abs(np.median(peaks)) < 1e-6
     assert np.abs(peaks).max() < 0.035
+
+
+def test_the_dump_tells_which_size_a_shot_has():
+    rows = single("20pct", 30)
+    sizes = np.array([0.98, 1.0, 1.02]) * SHOT.diameter
+    np.testing.assert_array_equal(diameters(rows, sizes), SHOT.diameter)
+    measured = 2 * (np.linalg.norm(rows.centre - rows.point, axis=1) + rows.overlap)
+    np.testing.assert_allclose(measured, SHOT.diameter, rtol=1e-6)
+
+
+def test_a_heavier_shot_is_slowed_less():
+    rows = selected(single("20pct", 30), np.array([0, 0]))
+    rows = dataclasses.replace(rows, number=np.array([1, 2]))
+    walls = Walls(np.zeros((0, 3, 3)), False, 210e9, 0.3, 0.57, None, 0.3)
+    both = Law.of(SHOT, walls, np.array([1.0, 2.0]) * SHOT.diameter)
+    assert both.mass[1] == pytest.approx(8 * SHOT.mass)
+    force, velocity = restore(rows, both, DT, 1)
+    slowed = velocity[:, 2] - rows.velocity[:, 2]
+    np.testing.assert_allclose(slowed, -DT / 2 * force[:, 2] / both.mass, rtol=1e-9)
+    assert abs(slowed[1]) < 0.5 * abs(slowed[0])

@@ -1,0 +1,42 @@
+"""How a package's kernels are compiled: cached on disk, stale when any file of the package changes.
+
+Numba's own cache sees changes of the decorated file only, so the cache folder is keyed by all sources of the package.
+"""
+
+import hashlib
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numba
+
+Decorator = Callable[[Any], Any]
+
+
+def kernels_of(package: Path, **options: Any) -> Decorator:
+    """A decorator for the kernels in the folder `package`, which call no kernel outside it.
+
+    Args:
+        package: whose `*.py` key the cache.
+        options: of `numba.njit`.
+    """
+    folder = str(_cache_folder(package))
+
+    def decorate(function: Any) -> Any:
+        config: Any = numba.config
+        before, config.CACHE_DIR = config.CACHE_DIR, folder  # read when a function is decorated, one for the process
+        try:
+            return numba.njit(cache=True, error_model="numpy", **options)(function)
+        finally:
+            config.CACHE_DIR = before
+
+    return decorate
+
+
+def _cache_folder(package: Path) -> Path:
+    digest = hashlib.sha256(numba.__version__.encode())
+    for source in (Path(__file__), *sorted(package.glob("*.py"))):
+        digest.update(source.read_bytes())
+    root = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
+    return root / "peenflow" / "kernels" / digest.hexdigest()[:16]

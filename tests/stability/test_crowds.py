@@ -1,0 +1,38 @@
+"""Many shots: at once, one after the other on one spot, and until nothing is left of the surface.
+
+62.5 m/s at right angles. Figures are the first shot's, the depth is that of the deepest dent.
+"""
+
+import numpy as np
+import pytest
+from hard_scenes import catalogue
+from hard_scenes.holding import held, section
+
+LONG = {"50 on one spot", "500 at random on one patch", "ten at once in a ring"}
+NAMES = [pytest.param(name, marks=pytest.mark.long if name in LONG else ()) for name in catalogue.CROWDS]
+BANDS = {"500 at random on one patch": {"dent's depth [µm]": 0.25, "least residual stress [MPa]": 0.15}}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_crowd(name, rung):
+    found = held(rung, "crowds", name, BANDS.get(name))
+    out = found.velocity_out[:, 2]
+    rung.between("slowest rebound [m/s]", out.min(), 0.0, 62.5)
+    rung.between("fastest rebound [m/s]", out.max(), 0.0, 62.5)
+    if name.startswith("ten"):
+        rung.below("rebounds of a ring, apart [m/s]", float(np.ptp(out)), 2.0)
+    if name.startswith(("50", "500")):
+        quads, peeq = section(found)
+        rung.curve(f"section/{name}", x=quads[..., 0].ravel(), z=quads[..., 1].ravel(), peeq=np.repeat(peeq, 4))
+        errors = ledger_errors(found)
+        rung.curve(f"energy/{name}", **errors)
+        rung.below("largest energy error on the way", max(errors["error"]), 0.02)
+
+
+def ledger_errors(found):
+    """Time [s] and |imbalance| over all brought in, in some hundred rows."""
+    e = found.solver.state.ledger.history()
+    spent = e.viscous + e.contact + e.friction + e.absorbed + e.relaxed
+    error = np.abs(e.kinetic + e.shots + e.internal + e.hourglass + spent - e.work) / e.work
+    rows = slice(None, None, max(1, len(e.time) // 200))
+    return {"time": e.time[rows], "error": error[rows]}

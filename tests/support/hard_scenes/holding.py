@@ -1,0 +1,78 @@
+"""What must hold in every hard scene, recorded figure by figure; and the finer results beside them."""
+
+import json
+
+import numpy as np
+from hard_scenes import catalogue
+from hard_scenes.run import Outcome, run
+from references import REFERENCE
+
+FINER = REFERENCE / "stability"
+ENERGY, HOURGLASS = 0.02, 0.1
+MOMENTUM = {"float64": 1e-9, "float32": 1e-5}
+SYMMETRY = {"float64": 1e-6, "float32": 1e-2}
+BANDS = {
+    "restitution": 0.05,
+    "peak force [N]": 0.05,
+    "dent's depth [µm]": 0.05,
+    "least residual stress [MPa]": 0.1,
+    "speed along the surface, out over in": 0.02,
+}
+UNIQUE = 1e-9  # m: nodes of the mirrored mesh nearer than this are the same
+
+
+def held(rung, group, name, bands=None, hourglass=HOURGLASS) -> Outcome:
+    """Run a scene and record all that must hold; `bands` (by figure, relative) replace those of `BANDS`."""
+    scene = catalogue.GROUPS[group][name]
+    found = run(scene)
+    sound(rung, name, found, scene.precision, hourglass)
+    if scene.mirrors:
+        apart = max(asymmetry(found, mirror) for mirror in scene.mirrors)
+        rung.below("asymmetry", apart, SYMMETRY[scene.precision])
+    against_finer(rung, group, name, found, bands or {})
+    return found
+
+
+def sound(rung, name, found: Outcome, precision="float64", hourglass=HOURGLASS):
+    """Finite, not inverted, balanced in energy and momentum."""
+    state, limit = found.solver.state, MOMENTUM[precision]
+    rung.title = name
+    rung.note("elements", len(found.peeq))
+    rung.note("steps", state.step)
+    rung.below("figures not finite", 0.0 if found.finite else 1.0, 0.0)
+    rung.between("least volume over its first", found.least_volume, 0.5, 2.0)
+    rung.between("least scaled Jacobian", found.least_jacobian, 1e-3, 1.0)
+    rung.below("energy error", state.ledger.error, ENERGY)
+    rung.below("hourglass over internal energy", state.hourglass_ratio, hourglass)
+    rung.below("momentum not balanced", found.momentum, limit)
+
+
+def against_finer(rung, group, name, found: Outcome, bands):
+    """Figures beside those of the finer mesh, and the profile for the picture."""
+    record = json.loads((FINER / f"{group}.json").read_text(encoding="utf-8"))[name]
+    for figure, expected in record["figures"].items():
+        rung.near(figure, found.figures[figure], expected, rel=(BANDS | bands)[figure])
+    rung.curve(f"{group}/{name}", depth=found.depth, stress=found.stress)
+    rung.curve(f"{group}/{name}/finer", depth=record["depth_m"], stress=record["stress_Pa"])
+
+
+def asymmetry(found: Outcome, mirror: str) -> float:
+    """Largest distance of a node from its mirror image, over the largest displacement."""
+    points, u = found.solver.deck.patch.nodes, found.displacement
+    image = {"x": [[-1, 0, 0], [0, 1, 0], [0, 0, 1]], "y": [[1, 0, 0], [0, -1, 0], [0, 0, 1]]} | {
+        "xy": [[0, 1, 0], [1, 0, 0], [0, 0, 1]]
+    }
+    turn = np.array(image[mirror], float)
+    here, there = (np.round(p / UNIQUE).astype(np.int64) for p in (points, points @ turn.T))
+    order, mirrored = np.lexsort(here.T), np.lexsort(there.T)
+    assert (here[order] == there[mirrored]).all(), "the mesh is not symmetric itself"
+    return float(np.abs(u[order] - (u @ turn.T)[mirrored]).max() / np.abs(u).max())
+
+
+def section(found: Outcome):
+    """Deformed quads (q, 4, 2) [m] of the elements cut by the plane y = 0⁺, and their PEEQ (q,)."""
+    patch = found.solver.deck.patch
+    y = patch.nodes[patch.hexes, 1]
+    cut = (y.min(axis=1) <= 1e-9) & (y.max(axis=1) > 1e-9)
+    front = patch.hexes[cut][:, [0, 1, 5, 4]]
+    return (patch.nodes + found.displacement)[front][:, :, [0, 2]], found.peeq[cut]

@@ -1,0 +1,57 @@
+"""docs/accuracy.md and the shipped table, from a study whose numbers are known."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import pytest
+
+from peenflow.study.survey import document
+
+ROOT = Path(__file__).parents[3]
+
+
+@pytest.fixture
+def tool(found, tmp_path, monkeypatch):
+    spec = importlib.util.spec_from_file_location("study_tool", ROOT / "tools" / "study.py")
+    module = importlib.util.module_from_spec(spec)
+    monkeypatch.setitem(__import__("sys").modules, "study_tool", module)
+    spec.loader.exec_module(module)
+    monkeypatch.setattr(module, "BUILD", tmp_path)
+    monkeypatch.setattr(module, "SHIPPED", tmp_path / "shipped.json")
+    (tmp_path / "shipped.json").write_text("{}")
+    base = tmp_path / "single-shot" / "points" / "base"
+    base.mkdir(parents=True)
+    ledger = [{"stage": "calibrate", "wall_s": 12.0, "predicted_wall_s": 10.0}]
+    ledger.append({"stage": "report", "wall_s": 0.5, "predicted_wall_s": 0.6})
+    (base / "summary.json").write_text(json.dumps({"ledger": ledger}))
+    return module
+
+
+@pytest.fixture
+def read(found):
+    return {"single-shot": json.loads(json.dumps(document(found)))}
+
+
+def test_the_page_has_every_point_and_what_follows(tool, read):
+    page = tool.page(read)
+    assert "| ★ | mesh_size | 0.02 mm | 6 | – | – | – | – | – | 1 |" in page
+    assert "| least RCS | 1 | -1600 MPa | 0.78 |" in page
+    assert "- for 3 % on the residual stress profile: relaxation 0.01" in page
+    assert "Its own error of the profile, extrapolated: 2 %." in page
+    assert "| calibrate | 10 | 12 | 1.20 |" in page
+    assert "Median of the ratios: 1.20." in page
+
+
+def test_every_part_is_a_case_there_is(tool):
+    for part in tool.PARTS.values():
+        assert (ROOT / part.case / "case.toml").is_file()
+
+
+def test_what_is_shipped_is_in_proportion_to_the_dent(tool, read, found):
+    read["single-shot"]["rows"][3]["accuracy"] = {"mesh_size": "0.015 mm", "boundary": "fixed"}
+    tool.ship(read)
+    rows = json.loads(tool.SHIPPED.read_text())["single_shot"]["rows"]
+    assert len(rows) == 1 + 3 + 1  # the base, meshes but the one without error, relaxation
+    (row,) = (row for row in rows if row["accuracy"])
+    assert row["accuracy"] == {"elements_per_dent": pytest.approx(found.scene.dent_radius / 15e-6, rel=1e-3)}

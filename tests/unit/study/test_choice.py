@@ -1,0 +1,136 @@
+"""accuracy.target and accuracy.budget against studies with known numbers."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from peenflow import machine
+from peenflow.case.directory import read_case
+from peenflow.errors import InputError
+from peenflow.estimate import START
+from peenflow.resolve import resolve
+from peenflow.study import choice
+from peenflow.study.identity import case_hash
+from peenflow.study.relative import absolute, relative
+
+CASES = Path(__file__).parents[3] / "cases"
+ROWS = [  # mesh, error, wall [s], of them in the solver, on one thread
+    ("0.02 mm", 0.08, 5.0, 4.0),
+    ("0.01 mm", 0.025, 20.0, 19.0),
+    ("0.006 mm", 0.008, 90.0, 89.0),
+]
+
+
+@pytest.fixture(autouse=True)
+def _known_speed(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "1")
+
+
+def leave_study(directory, **changes):
+    case, _ = read_case(directory)
+    rows = [
+        {"kind": "knob", "accuracy": {"mesh_size": mesh, "relaxation": 0.004}, "error_profile": error}
+        | {"wall_s": wall, "solver_wall_s": solver, "threads": 1}
+        for mesh, error, wall, solver in ROWS
+    ]
+    found = {"case_hash": case_hash(case, directory, accuracy=False), "rows": rows}
+    found |= {"machine": {"updates_per_s": {"1": machine.ELSEWHERE.updates_per_s[1]}}} | changes
+    (directory / "study").mkdir(exist_ok=True)
+    (directory / "study" / "study.json").write_text(json.dumps(found))
+
+
+@pytest.fixture
+def studied(tmp_path):
+    shutil.copytree(CASES / "single-shot", tmp_path / "case", ignore=shutil.ignore_patterns("results", "study"))
+    leave_study(tmp_path / "case")
+    return tmp_path / "case"
+
+
+def scene(directory, *settings):
+    return resolve(*read_case(directory, settings))
+
+
+def test_a_target_becomes_the_knobs_of_the_quickest_point_that_keeps_it(studied):
+    found = scene(studied, "accuracy.target=3 %")
+    assert found.knobs.calibration_mesh_size == pytest.approx(1e-5)
+    assert found.knobs.relaxation == 0.004
+    assert "accuracy.target 3 %: chosen mesh_size 0.01 mm" in found.chosen
+    assert "error 2.5 %" in found.chosen
+    assert "this case's own study" in found.chosen
+
+
+def test_a_budget_takes_another_setting(studied):
+    assert scene(studied, "accuracy.budget=2 min").knobs.calibration_mesh_size == pytest.approx(6e-6)
+    assert scene(studied, "accuracy.budget=10 s").knobs.calibration_mesh_size == pytest.approx(2e-5)
+
+
+def test_time_is_that_of_this_machine(studied):
+    fast = {"1": machine.ELSEWHERE.updates_per_s[1] * 2}  # the study ran on a machine twice as fast as this one
+    leave_study(studied, machine={"updates_per_s": fast})
+    told = scene(studied, "accuracy.target=3 %").chosen
+    assert f"about {START + 1.0 + 2 * 19.0:.3g} s" in told
+
+
+def test_knobs_that_the_case_states_stand(studied):
+    found = scene(studied, "accuracy.target=3 %", "accuracy.relaxation=0.1")
+    assert found.knobs.relaxation == 0.1
+    assert found.knobs.calibration_mesh_size == pytest.approx(1e-5)
+
+
+def test_a_study_of_another_case_does_not_count(studied):
+    chosen = scene(studied, "accuracy.target=10 %", "single_shot.speed=70 m/s").chosen
+    assert "shipped study" in chosen
+
+
+def test_without_a_wish_nothing_is_chosen(studied):
+    assert scene(studied).chosen is None
+
+
+def test_the_shipped_study_of_the_single_shot_gives_different_settings_for_target_and_budget(tmp_path):
+    exact = scene(CASES / "single-shot", "accuracy.target=3 %", "single_shot.speed=60 m/s")
+    quick = scene(CASES / "single-shot", "accuracy.budget=30 s", "single_shot.speed=60 m/s")
+    assert exact.knobs != quick.knobs
+    assert exact.knobs.calibration_mesh_size < exact.dent_radius / 3
+
+
+def test_a_wish_no_study_keeps_is_refused(studied):
+    with pytest.raises(InputError, match=r"accuracy.target = 0.1 %.*mesh_size 0.006 mm"):
+        scene(studied, "accuracy.target=0.1 %")
+
+
+def test_the_wish_replaces_the_preset_and_excludes_it_in_the_file(studied):
+    text = (studied / "case.toml").read_text() + '\n[accuracy]\npreset = "fine"\n'
+    (studied / "case.toml").write_text(text)
+    leave_study(studied)
+    assert scene(studied, "accuracy.target=3 %").chosen is not None
+    (studied / "case.toml").write_text(text + 'budget = "1 min"\n')
+    with pytest.raises(InputError, match=r"accuracy\.budget: excludes preset"):
+        read_case(studied)
+
+
+@pytest.mark.parametrize("target", ["0 %", "100 %", "5", "5 mm"])
+def test_a_target_is_a_share(studied, target):
+    with pytest.raises(InputError, match=r"accuracy\.target"):
+        read_case(studied, [f"accuracy.target='{target}'"])
+
+
+def test_settings_travel_in_proportion_to_dent_and_shot():
+    one, other = scene(CASES / "plate"), scene(CASES / "plate", "shot.diameter=0.7112 mm")
+    ratios = relative({"mesh_size": "0.02 mm", "depth": "0.7112 mm", "relaxation": 0.001}, one)
+    found = absolute(ratios, other)
+    assert ratios["depth_per_diameter"] == pytest.approx(2.0)
+    assert float(found["depth"].removesuffix(" mm")) == pytest.approx(2 * 0.7112, rel=5e-3)
+    expected = 0.02 * other.dent_radius / one.dent_radius
+    assert float(found["mesh_size"].removesuffix(" mm")) == pytest.approx(expected, rel=5e-3)
+    assert found["relaxation"] == 0.001
+
+
+def test_the_shipped_table_is_one_of_this_version():
+    table = json.loads((Path(choice.__file__).parent / "shipped.json").read_text())
+    assert table["single_shot"]["rows"]
+    for kind in table.values():
+        for row in kind["rows"]:
+            assert 0 < row["error_profile"] < 1

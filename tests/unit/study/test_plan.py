@@ -1,0 +1,113 @@
+"""Which points a case gets."""
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from peenflow.case.directory import read_case
+from peenflow.errors import InputError
+from peenflow.resolve import resolve
+from peenflow.study.knobs import KNOBS, rounded
+from peenflow.study.plan import plan
+from peenflow.study.unsure import family
+
+CASES = Path(__file__).parents[3] / "cases"
+
+
+@cache
+def planned(case, knobs=None, *settings):
+    def resolved(more):
+        return resolve(*read_case(CASES / case, [*settings, *(f"{key}={value}" for key, value in more.items())]))
+
+    return plan(resolved({}), resolved, knobs)
+
+
+def values(found, knob):
+    return [point.value for point in found.points if point.knob == knob]
+
+
+def test_a_single_shot_has_enough_points_over_enough_knobs_and_no_stream():
+    found = planned("single-shot")
+    assert len(found.points) >= 15
+    assert len({point.knob for point in found.points}) >= 5
+    assert found.reference.settings["accuracy.mesh_size"] == "0.005 mm"
+    assert {"depth", "load", "dem_time_step", "contact_interval"} <= set(found.left_out)
+    assert found.left_out["dem_time_step"] == "no stream is computed"
+
+
+def test_a_mesh_ladder_halves_twice_down_to_the_reference():
+    sizes = [float(value.removesuffix(" mm")) for value in values(planned("single-shot"), "mesh_size")]
+    assert sizes == sorted(sizes, reverse=True)
+    assert {4 * sizes[-1], 2 * sizes[-1]} <= set(sizes)
+
+
+def test_what_the_base_has_is_no_point_of_its_own():
+    found = planned("single-shot")
+    assert "0.8" not in values(found, "time_step")
+    assert "standard" not in values(found, "preset")
+    assert "0.8" in values(planned("single-shot", None, "accuracy.time_step=0.6"), "time_step")
+
+
+def test_the_reference_is_never_coarser_than_the_base():
+    found = planned("single-shot", None, "accuracy.relaxation=1e-5", "accuracy.mesh_size=0.003 mm")
+    assert "accuracy.relaxation" not in found.reference.settings
+    assert float(found.reference.settings["accuracy.mesh_size"].removesuffix(" mm")) < 0.003
+
+
+def test_the_reference_is_the_same_whatever_is_asked_for():
+    assert planned("single-shot", ("relaxation",)).reference.settings == planned("single-shot").reference.settings
+
+
+def test_a_stream_has_its_knobs_and_given_impacts_have_not():
+    assert {"dem_time_step", "contact_interval", "depth", "group_distance"} <= {
+        p.knob for p in planned("bolt-hole").points
+    }
+    left_out = planned("patch").left_out
+    assert left_out["group_distance"] == "the impacts keep their own times"
+    assert left_out["boundary"] == "the case says what lies behind"
+    assert left_out["depth"] == "the patch is as deep as the plate"
+
+
+def test_what_is_not_known_well_is_varied_only_when_asked_for():
+    assert not [point for point in planned("single-shot").points if point.kind == "unsure"]
+    found = planned("single-shot", ("material", "speed"))
+    assert set(values(found, "material")) >= {"inconel718-aged", "inconel718-980"}
+    assert [point.settings for point in found.points if point.knob == "speed"] == [
+        {"single_shot.speed": "59.375 m/s"},
+        {"single_shot.speed": "65.625 m/s"},
+    ]
+
+
+@pytest.mark.parametrize("case", ["single-shot", "bolt-hole"])
+def test_points_have_directories_of_their_own(case):
+    found = planned(case, ("mesh_size", "speed", "diameter", "relaxation"))
+    names = [point.name for point in (found.base, found.reference, *found.points)]
+    assert len(set(names)) == len(names)
+
+
+def test_another_condition_is_another_material():
+    assert "inconel718-annealed" not in family("inconel718")
+    assert "inconel718" in family("inconel718-aged")
+    assert family("ti6al4v-997") == ["ti6al4v"]
+    assert family("steel-4340") == []
+
+
+@pytest.mark.parametrize(
+    ("knobs", "expected"),
+    [(("mesh",), "--knobs mesh: there is no such knob; known: mesh_size"), (("depth",), "No knob is left to vary")],
+)
+def test_knobs_that_cannot_be_varied_are_refused(knobs, expected):
+    with pytest.raises(InputError, match=expected):
+        planned("single-shot", knobs)
+
+
+def test_every_knob_is_a_key_of_accuracy():
+    from peenflow.case.model import Accuracy
+
+    assert {knob.name for knob in KNOBS} <= set(Accuracy.model_fields)
+
+
+@pytest.mark.parametrize(("size", "expected"), [(5.05e-6, 5e-6), (1.21e-5, 1.2e-5), (9.4e-3, 1e-2), (0.0237, 0.025)])
+def test_sizes_are_rounded_to_what_a_person_would_choose(size, expected):
+    assert rounded(size) == pytest.approx(expected)
