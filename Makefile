@@ -1,4 +1,4 @@
-# make setup | demo | test | test-long | verification | study | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
+# make setup | demo | test | test-long | verification | stability | stability-reference | study | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
 SHELL := /bin/bash
 .DELETE_ON_ERROR:
 VENV := .venv
@@ -6,8 +6,9 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 RESULTS := cases/bolt-hole/results
 LADDER := build/verification
+SCENES := build/stability
 
-.PHONY: setup demo test test-long verification study bench-tests lint clean
+.PHONY: setup demo test test-long verification stability stability-reference study bench-tests lint clean
 
 setup: $(READY)
 
@@ -31,7 +32,17 @@ test-long: setup
 verification: setup
 	rm -rf $(LADDER)
 	$(BIN)/pytest tests/verification --record $(LADDER); told=$$?; \
-	  $(BIN)/python tests/support/ladder_page.py $(LADDER) docs && exit $$told
+	  $(BIN)/python tests/support/ladder_page.py verification $(LADDER) docs && exit $$told
+
+# the hard scenes, likewise; two workers as in `test`
+stability: setup
+	rm -rf $(SCENES)
+	NUMBA_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/pytest tests/stability -n 2 --record $(SCENES); told=$$?; \
+	  $(BIN)/python tests/support/ladder_page.py stability $(SCENES) docs && exit $$told
+
+# half an hour: finer results of the hard scenes, for `stability` to be held to; GROUPS="speeds grazing …" chooses
+stability-reference: setup
+	$(BIN)/python tests/support/hard_scenes/record.py $(GROUPS)
 
 # accuracy against time: hours for all parts, of which PARTS="single-shot depth …" chooses; finished points are kept
 study: setup

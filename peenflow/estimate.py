@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from peenflow import machine
+from peenflow import hourglass, machine
 from peenflow.calibrate import unit_cell
 from peenflow.calibrate.stage import DENTS_AT_REST
 from peenflow.case.accuracy import CELL_WIDTH
@@ -53,6 +53,8 @@ MEETING_GROUPS = 1.2  # groups by impacts in the circle of the group distance, f
 LEAST_SHARING = 0.7  # groups an impact where none can share
 COARSEST = 2.0  # elements in a dent radius, below which a dent is not resolved
 MOST_IN_A_ROW = 10_000  # elements: their square is beyond any memory
+LARGEST_HOURGLASS = 0.12  # of the internal energy: 10 % is what a run may have, and the prediction errs by a fifth
+LARGEST_FRICTION = 0.5  # a shot rougher than this that grazes shears one layer of elements only, of whatever size
 LARGEST_DEM_STEP = 0.3  # of the Rayleigh step: beyond, restitution drifts (3 % at 0.53)
 
 
@@ -284,6 +286,17 @@ def _warnings(scene: Scene, sizes: Sizes) -> list[str]:
         found.append(
             f"elements of {h * 1e6:.3g} µm do not resolve a dent of {scene.dent_radius * 1e6:.3g} µm radius: "
             f"lower accuracy.mesh_size to {scene.dent_radius / COARSEST * 1e6:.3g} µm or less."
+        )
+    held = hourglass.share(h, knobs.hourglass, scene.speed, scene.shot, scene.material)
+    if held > LARGEST_HOURGLASS:
+        found.append(
+            f"hourglass control will hold some {100 * held:.0f} % of the internal energy, where 10 % is tolerable: "
+            "lower accuracy.mesh_size (it goes with the power 1.6 of it), or accuracy.hourglass."
+        )
+    if scene.effects["contact_friction"].on and scene.case.dem.friction > LARGEST_FRICTION:
+        found.append(
+            f"dem.friction is {scene.case.dem.friction:g}: above {LARGEST_FRICTION:g} grazing shots take the surface "
+            "along, strain gathers in the first layer of elements, and finer ones change the answer."
         )
     if sizes.elements and sizes.impacts < 1:
         found.append("less than one impact is expected on the patch: shoot longer, or make target.patch larger.")

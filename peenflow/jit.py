@@ -11,6 +11,10 @@ from typing import Any
 
 import numba
 
+# Of numba's threading layers, OpenMP first: TBB, which comes with LIGGGHTS, has hung for minutes at a process's end.
+if "NUMBA_THREADING_LAYER_PRIORITY" not in os.environ:
+    numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]  # type: ignore[attr-defined]
+
 Decorator = Callable[[Any], Any]
 
 

@@ -190,7 +190,7 @@ def _given_arrival(table: ContactTable, surface: Surface, one: tuple[float, floa
     if off > given[1]:
         raise InputError(
             f"[contacts]: half of the contacts on the target lie more than {off * 1e3:.3g} mm off its surface. Check "
-            "that x, y and z are in the part's frame, and their units: columns.x = \"header [mm]\"."
+            'that x, y and z are in the part\'s frame, and their units: columns.x = "header [mm]".'
         )
     hard = normal >= HARD * normal.max()
     slant = np.sqrt(speed[hard] ** 2 - normal[hard] ** 2) / normal[hard]

@@ -12,9 +12,7 @@ _registry: pint.UnitRegistry[float] = pint.UnitRegistry(autoconvert_offset_to_ba
 _NAME = r"(?:%|°?[^\W\d]\w*)(?:\s*(?:\*\*|\^)\s*[+-]?\d)?"  # of a unit, with a power
 _JOIN = r"\s*(?:[*/·]|\s)\s*"
 _UNIT = rf"(?:1?\s*/\s*)?(?:{_NAME}|\({_NAME}(?:{_JOIN}{_NAME})*\))"
-_QUANTITY = re.compile(
-    rf"[+-]?(?:\d+\.?\d*|\.\d+|nan|inf)(?:[eE][+-]?\d+)?\s*(?:{_UNIT}(?:{_JOIN}{_UNIT})*)?"
-)
+_QUANTITY = re.compile(rf"[+-]?(?:\d+\.?\d*|\.\d+|nan|inf)(?:[eE][+-]?\d+)?\s*(?:{_UNIT}(?:{_JOIN}{_UNIT})*)?")
 _LONGEST = 60  # characters; pint would also compute "9**9**9", for ever
 
 RANGES = {

@@ -86,7 +86,8 @@ def candidates(balls: Balls, model: Model, u: np.ndarray, v: np.ndarray, horizon
             lists.append(found[:count].copy())
         start.append(start[-1] + count)
     nodes = np.concatenate([np.zeros(0, np.int64), *lists])
-    return Candidates(np.array(start), nodes, np.zeros((len(nodes), 3)), np.zeros(len(nodes)))
+    before, predicted = np.zeros((2, len(nodes), 3))
+    return Candidates(np.array(start), nodes, before, predicted, np.zeros(len(nodes)))
 
 
 def kinetic_energy(balls: Balls) -> float:

@@ -9,12 +9,12 @@ from peenflow import __version__
 from peenflow.digest import key, leaves
 from peenflow.fe.contact import Balls
 from peenflow.fe.recorder import ContactRecorder
-from peenflow.fe.solver import Solver
+from peenflow.fe.solver import FIELDS, Solver
 from peenflow.files import written_whole
 from peenflow.records.deck import Deck
 
-SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "hourglass_ratio", "retries")
-ARRAYS = ("u", "v", "force", "deviator", "peeq", "temperature", "backstress", "active")
+SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "hourglass_ratio", "retries", "damping")
+ARRAYS = (*FIELDS, "active")
 SUMS = ("kinetic", "shots", "contact", "friction", "absorbed", "relaxed", "work", "dormant")
 
 
@@ -48,6 +48,8 @@ def resume(solver: Solver, path: Path) -> bool:
         return False
     if str(saved.get("identity")) != identity(solver.deck, solver.threads):
         return False
+    if not np.isnan(saved["scalars"][SCALARS.index("relaxing_since")]):
+        solver.go_on_in_double()
     state = solver.state
     if not _fits(saved, solver):
         return False

@@ -42,6 +42,7 @@ class Candidates(NamedTuple):
     start: np.ndarray  # (s + 1,) first candidate of each sphere
     nodes: np.ndarray  # (k,) node numbers
     before: np.ndarray  # (k, 3) their velocities before the step [m/s]
+    predicted: np.ndarray  # (k, 3) those that internal forces gave them, before the far field or a sphere pushed [m/s]
     pressed: np.ndarray  # (k,) normal impulse each got in the step [N s], overwritten
 
 
@@ -155,28 +156,27 @@ def touching_nodes(first, last, candidates, surface, centre, radius, dt, touched
 
 
 @kernel
-def correct(balls, candidates, surface, dt, friction, impulses):
+def correct(balls, candidates, surface, dt, friction, impulses, backwards=False):
     """Move the live spheres a step and keep the surface out of them.
 
-    A node may be pushed more than once in a step, by friction or by another sphere. What pushes it by J from v₁ to v₂,
-    v* predicted and v₀ before the step, does the work J·½(v₂ + v₀ + (v₁ − v*)): the sum is the node's own, whoever
-    comes first.
+    A node may be pushed more than once in a step: by the far field, by friction, by another sphere. What pushes it by J
+    from v₁ to v₂, v* predicted and v₀ before the step, does the work J·½(v₂ + v₀ + (v₁ − v*)): the sum is the node's
+    own, whoever comes first.
 
     Args:
         balls, candidates, surface: spheres, the nodes near them, all nodes.
         dt: the step [s].
         friction: Coulomb coefficient.
         impulses: (s, 3) overwritten with the impulse on each sphere [N s].
+        backwards: the last sphere comes first. The first gets more of the nodes that two share; by turns, neither does.
 
     Returns:
         (energy lost in normal contact, energy lost in friction) [J].
     """
     lost, rubbed = 0.0, 0.0
-    predicted = np.empty((len(candidates.nodes), 3))
-    for c in range(len(predicted)):
-        for a in range(3):
-            predicted[c, a] = surface.v[candidates.nodes[c], a]
-    for s in range(len(balls.radius)):
+    count = len(balls.radius)
+    for turn in range(count):
+        s = count - 1 - turn if backwards else turn
         impulses[s] = 0.0
         if balls.phase[s] != LIVE:
             continue
@@ -188,38 +188,37 @@ def correct(balls, candidates, surface, dt, friction, impulses):
         centre, velocity, mass = balls.centre[s], balls.velocity[s], balls.mass[s]
         for a in range(3):
             centre[a] += dt * velocity[a]
-        count = touching_nodes(
+        inside = touching_nodes(
             first, last, candidates, surface, centre, balls.radius[s], dt, touched, normal, need, mobility
         )
-        if count == 0:
+        if inside == 0:
             continue
-        total = normal_impulses(count, normal, need, mobility, balls.projector[s], mass, impulse)
+        total = normal_impulses(inside, normal, need, mobility, balls.projector[s], mass, impulse)
         recoil = projected(balls.projector[s], total[0] / mass, total[1] / mass, total[2] / mass)
         for a in range(3):
             lost += total[a] * (velocity[a] - 0.5 * recoil[a])
             velocity[a] -= recoil[a]
             centre[a] -= dt * recoil[a]
             impulses[s, a] = -total[a]
-        for k in range(count):
+        for k in range(inside):
             i = candidates.nodes[touched[k]]
             candidates.pressed[touched[k]] = impulse[k]
             push = impulse[k] / surface.mass[i]
             direction = allowed(surface, i, normal[k, 0], normal[k, 1], normal[k, 2])
             for a in range(3):
-                earlier = surface.v[i, a] - predicted[touched[k], a]
+                earlier = surface.v[i, a] - candidates.predicted[touched[k], a]
                 surface.v[i, a] += push * direction[a]
                 surface.u[i, a] += dt * push * direction[a]
                 mean = 0.5 * (surface.v[i, a] + candidates.before[touched[k], a] + earlier)
                 lost -= impulse[k] * normal[k, a] * mean
         if friction > 0.0:
-            for k in range(count):
-                c, limit = touched[k], friction * impulse[k]
-                rubbed += rub(s, balls, candidates, predicted[c], surface, c, normal[k], limit, dt, impulses)
+            for k in range(inside):
+                rubbed += rub(s, balls, candidates, surface, touched[k], normal[k], friction * impulse[k], dt, impulses)
     return lost, rubbed
 
 
 @kernel
-def rub(s, balls, candidates, predicted, surface, c, n, limit, dt, impulses):
+def rub(s, balls, candidates, surface, c, n, limit, dt, impulses):
     """Coulomb friction between sphere s and candidate c: stick as far as `limit` [N s] allows.
 
     The node alone is brought to rest against the sphere's skin (it weighs a millionth of the sphere); the sphere takes
@@ -241,7 +240,7 @@ def rub(s, balls, candidates, predicted, surface, c, n, limit, dt, impulses):
     jx, jy, jz = share * x, share * y, share * z  # on the sphere
     lost = 0.0
     for a, j, skin in ((0, jx, sx), (1, jy, sy), (2, jz, sz)):
-        earlier = surface.v[i, a] - predicted[a]
+        earlier = surface.v[i, a] - candidates.predicted[c, a]
         surface.v[i, a] -= j / surface.mass[i]
         surface.u[i, a] -= dt * j / surface.mass[i]
         lost += j * (0.5 * (surface.v[i, a] + candidates.before[c, a] + earlier) - skin)

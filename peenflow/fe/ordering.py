@@ -30,7 +30,8 @@ class Order:
 def local(deck: Deck) -> tuple[Deck, Order]:
     """The deck with its nodes and elements in a local order, and that order."""
     patch = deck.patch
-    if len(patch.hexes) <= SMALL or blocked(patch.hexes).rows.mean() >= ENOUGH:
+    consecutive = np.diff(blocked(patch.hexes).nodes, axis=2) == 1
+    if len(patch.hexes) <= SMALL or consecutive.mean() >= ENOUGH:
         return deck, Order(np.arange(len(patch.nodes)), np.arange(len(patch.hexes)))
     order = found(patch.nodes, patch.hexes)
     return renumbered(deck, order), order

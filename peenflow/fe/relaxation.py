@@ -7,6 +7,7 @@ dashpots are left out: they would overdamp light nodes.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from peenflow.fe.model import Model
 from peenflow.fe.solver import BUNDLE, Solver
 from peenflow.fe.timestep import nodal_volumes, transit_times
 
-DAMPING = 0.04  # share of its velocity that a node loses each step
+DAMPING = 0.005, 0.2  # least and largest share of its velocity that a node loses each step
 CHECK = 5 * BUNDLE  # steps between looks at the residual
 MARGIN = 1.2  # of the finest element's step: deformation shortens that of others
 
@@ -48,8 +49,10 @@ def fictitious_mass(model: Model) -> np.ndarray:
 def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] | None = None) -> float:
     """Bring the patch to rest; returns the residual reached, at most controls.relaxation if `longest` [s] suffices.
 
-    The spheres are gone from here on; what damping takes is booked as `relaxed`. Resumes a relaxation under way.
+    The spheres are gone from here on; what damping takes is booked as `relaxed`. Resumes a relaxation under way. A run
+    in single precision goes on in double.
     """
+    solver.go_on_in_double()
     state, limit = solver.state, solver.deck.controls.relaxation
     if np.isnan(state.relaxing_since):
         state.relaxing_since, state.hourglass_ratio = state.time, state.ledger.hourglass_ratio
@@ -63,9 +66,10 @@ def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] 
     solver.mass = fictitious_mass(solver.model)
     solver.viscosity = BulkViscosity(*np.zeros(2, solver.model.X.dtype))
     solver.far = solver.model.far._replace(dashpots=np.zeros_like(solver.model.far.dashpots))
+    damper = Damper(state.u, state.u)
     left = residual(solver)
     while left > limit and state.time < state.relaxing_since + longest:
-        solver.bundle(_slow_down)
+        solver.bundle(damper)
         if state.step % CHECK == 0:
             left = residual(solver)
             if after_check is not None:
@@ -73,7 +77,32 @@ def relax(solver: Solver, longest: float, after_check: Callable[[Solver], None] 
     return left
 
 
-def _slow_down(solver: Solver) -> None:
-    taken = np.zeros((solver.threads, 8))
-    motion.slow_down(solver.model.chunks, solver.mass, solver.state.v, 1.0 - DAMPING, taken)
-    solver.state.ledger.relaxed += float(taken[:, 0].sum())
+@dataclass
+class Damper:
+    """Slows all nodes down each step, critically for what moves just now.
+
+    Once a bundle the Rayleigh quotient of the motion, ω² = −Δu·Δf/Δu·MΔu over a bundle's steps, tells the frequency ω
+    of what is left to swing (Underwood 1983); the share of its velocity that a node loses each step is then 2ωΔt.
+    """
+
+    u: np.ndarray
+    force: np.ndarray
+
+    def __call__(self, solver: Solver) -> None:
+        """After each step."""
+        state = solver.state
+        if state.step % BUNDLE == 1:
+            self.u, self.force = state.u.copy(), state.force.sum(axis=0)
+        elif state.step % BUNDLE == 0:
+            state.damping = self._critical(solver)
+        taken = np.zeros((solver.threads, 8))
+        motion.slow_down(solver.model.chunks, solver.mass, state.v, 1.0 - state.damping, taken)
+        state.ledger.relaxed += float(taken[:, 0].sum())
+
+    def _critical(self, solver: Solver) -> float:
+        state = solver.state
+        moved, gained = (state.u - self.u).astype(float), state.force.sum(axis=0, dtype=float) - self.force
+        inertia = float(solver.mass @ (moved**2).sum(axis=1))
+        squared = -float((moved * gained).sum()) / max(inertia, 1e-300)
+        share = 2.0 * np.sqrt(max(squared, 0.0)) * state.dt
+        return float(np.clip(share, *DAMPING))

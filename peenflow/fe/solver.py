@@ -1,5 +1,6 @@
 """The explicit solver: steps in bundles, with everything that need not happen every step between them."""
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -30,6 +31,9 @@ class UnstableError(RunError):
         self.short = short
 
 
+FIELDS = ("u", "v", "force", "deviator", "peeq", "temperature", "backstress")  # of a state, in the deck's precision
+
+
 @dataclass
 class State:
     """What changes from step to step: all a checkpoint must hold."""
@@ -52,6 +56,7 @@ class State:
     first_dt: float = 0.0  # s
     relaxing_since: float = np.nan  # s, NaN while impacts go on
     hourglass_ratio: float = 0.0  # at the end of the impacts
+    damping: float = 0.04  # share of its velocity that a node loses each step of the relaxation
     retries: int = 0  # times the guard went back, each with smaller steps
 
 
@@ -97,9 +102,19 @@ class Solver:
         return state
 
     def as_in_motion(self) -> None:
-        """Masses, far field, viscosity and who takes part, of real motion; relaxation puts others in their place."""
+        """Masses, far field, viscosity, precision and who takes part, of real motion; relaxation changes them."""
+        for name in FIELDS:
+            setattr(self.state, name, np.asarray(getattr(self.state, name), self.model.X.dtype))
         self._take_up()
         self.mass, self.viscosity = self.model.mass, self.model.viscosity
+
+    def go_on_in_double(self) -> None:
+        """Double precision from now on: single precision's noise in the pressure hides residuals of thousandths."""
+        if self.model.X.dtype == np.float64:
+            return
+        controls = dataclasses.replace(self.deck.controls, precision="float64")
+        self.model = build(dataclasses.replace(self.deck, controls=controls), self.threads)
+        self.as_in_motion()
 
     def take_over(self, earlier: "Solver") -> None:
         """Start from where an earlier run of the same mesh came to rest."""
@@ -108,6 +123,8 @@ class Solver:
         state.deviator, state.peeq, state.temperature, state.backstress = (
             a.copy() for a in (before.deviator, before.peeq, before.temperature, before.backstress)
         )
+        # internal energy counts from here, hourglass energy is what elements hold: of that, this much is brought along
+        state.ledger.work += before.ledger.of_elements(HOURGLASS)
 
     @property
     def share(self) -> float:
@@ -223,6 +240,7 @@ class Solver:
             model.chunks, part.spans, part.awake, state.force, self.mass, state.u, state.v, kick, dt, self._kinetic
         )
         boundary.hold(model.rollers.nodes, model.rollers.projectors, state.u, state.v, dt)
+        motion.remember(self.candidates.nodes, state.v, self.candidates.predicted)
         ledger.absorbed += boundary.absorb(self.far, self.mass, state.u, state.v, self._before_far, kick, dt)
         if len(model.loaded):
             ledger.work += external.work_done(model.loaded, self._external, self._before_loads, state.v, dt)
@@ -246,7 +264,8 @@ class Solver:
     def _collide(self, dt: float) -> None:
         model, state = self.model, self.state
         surface = Surface(model.X, state.u, state.v, self.mass, model.held, model.rollers.projectors)
-        lost, rubbed = correct(state.balls, self.candidates, surface, dt, self.friction, self._impulses)
+        backwards = state.step % 2 == 1
+        lost, rubbed = correct(state.balls, self.candidates, surface, dt, self.friction, self._impulses, backwards)
         state.ledger.contact += lost
         state.ledger.friction += rubbed
         state.ledger.shots = spheres.kinetic_energy(state.balls)

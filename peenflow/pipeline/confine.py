@@ -14,9 +14,7 @@ def confine(out: Path, within: Path) -> None:
         InputError: a link leads out.
     """
     if not _inside(out, within):
-        raise InputError(
-            f"{out} leads out of the case directory: remove that link, or name the directory with --out."
-        )
+        raise InputError(f"{out} leads out of the case directory: remove that link, or name the directory with --out.")
     for folder, folders, files in os.walk(out):
         for link in (path for name in (*folders, *files) if (path := Path(folder, name)).is_symlink()):
             if not _inside(link, out):

@@ -5,15 +5,17 @@
 
 import numpy as np
 import pytest
-from hard_scenes import catalogue
-from hard_scenes.holding import held, section
+from hard_scenes.holding import held, section, some
 
-LONG = {"50 on one spot", "500 at random on one patch", "ten at once in a ring"}
-NAMES = [pytest.param(name, marks=pytest.mark.long if name in LONG else ()) for name in catalogue.CROWDS]
-BANDS = {"500 at random on one patch": {"dent's depth [µm]": 0.25, "least residual stress [MPa]": 0.15}}
+QUICK = {"two at once, 0.1 d apart", "the next arrives while one is in contact"}
+BANDS = {
+    # the deepest of hundreds of dents, where no node need lie
+    "500 at random on one patch": {"dent's depth [µm]": 0.1},
+    "ten at once in a ring": {"dent's depth [µm]": 0.08},
+}
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", some("crowds", QUICK))
 def test_crowd(name, rung):
     found = held(rung, "crowds", name, BANDS.get(name))
     out = found.velocity_out[:, 2]

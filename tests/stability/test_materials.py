@@ -6,10 +6,11 @@ the scene says so its coefficient is lower, or the elements are finer, as `peenf
 """
 
 import pytest
-from hard_scenes import catalogue
-from hard_scenes.holding import held
+from hard_scenes.holding import held, some
+
+QUICK = {"Al 7075 heated to melting by 300 m/s", "n = 0.01", "C = 0", "C = 0.1", "half-way to melting"}
 
 
-@pytest.mark.parametrize("name", catalogue.MATERIALS)
+@pytest.mark.parametrize("name", some("materials", QUICK))
 def test_material(name, rung):
     held(rung, "materials", name)

@@ -3,28 +3,34 @@
 62.5 m/s at right angles. What symmetry planes leave out must not change the answer.
 """
 
-import numpy as np
 import pytest
 from hard_scenes import catalogue
-from hard_scenes.holding import held
+from hard_scenes.holding import held, some
 from hard_scenes.run import run
 
+BANDS = {
+    # no node lies at the bottom of the dent, but half an element beside it
+    "between four nodes": {"dent's depth [µm]": 0.08},
+    # within a few elements stress falls to zero at the free face
+    "0.1 r from a free edge": {"least residual stress [MPa]": 0.35},
+}
 
-@pytest.mark.parametrize("name", catalogue.PLACES)
+QUICK = {"on a node, a quarter meshed", "0.1 r from a free edge", "on the patch's rim", "0.1 r from a symmetry plane"}
+
+
+@pytest.mark.parametrize("name", some("places", QUICK))
 def test_place(name, rung):
-    found = held(rung, "places", name)
+    found = held(rung, "places", name, BANDS.get(name))
     whole = catalogue.PLACES["on a node, a quarter meshed"]
     if name.startswith("on a node") and found.solver.model.elements > 6000:
         quarter = run(whole)
         for figure, value in quarter.figures.items():
-            tolerance = 1e-6 if "stress" not in figure else 5e-3  # relaxation ends within its residual
-            rung.near(f"{figure}, against a quarter", found.figures[figure], value, rel=tolerance)
+            rung.near(f"{figure}, against a quarter", found.figures[figure], value, rel=2e-3)
 
 
 def test_a_mirror_image_is_a_second_shot(rung):
     rung.title = "0.1 r from a symmetry plane, against two shots"
     mirrored = run(catalogue.PLACES["0.1 r from a symmetry plane"])
     pair = run(catalogue.CROWDS["two at once, 0.1 d apart"])
-    out = pair.velocity_out
-    rung.below("the two shots' speeds, apart [m/s]", float(np.abs(out[0, 2] - out[1, 2])), 1e-6)
-    rung.near("rebound [m/s]", mirrored.velocity_out[0, 2], float(out[0, 2]), rel=0.05)
+    for which, velocity in enumerate(pair.velocity_out, start=1):
+        rung.near(f"rebound of shot {which} [m/s]", float(velocity[2]), mirrored.velocity_out[0, 2], rel=2e-3)

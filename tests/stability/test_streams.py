@@ -27,10 +27,12 @@ def thrown(stream, folder, engine):
 
 
 FLOOR, CEILING, SLANT = 40e-3, 1.5e-3, math.radians(30)  # m half a side, m, from the normal
+ACROSS = (1 - 2 / 7 * 1.44, 1.01)  # speed kept across: 5/7 if the sphere rolls off; springing sideways it may lose
+# 44 % more (Maw, Barber and Fawcett 1976)
 
 
 def between_plates(engine, x, y, restitution, tiles=1):
-    """One shot that meets the floor z = 0 at (x, y), 30° off its normal along x, without friction.
+    """One shot that meets the floor z = 0 at (x, y), 30° off its normal along x, with a friction of 0.1.
 
     The floor is a square of `tiles`² squares of two facets, around the origin. The event-driven engine tells velocities
     at hits only, so that the shot meets a ceiling then; LIGGGHTS' shots come from behind the nozzle, through a ceiling.
@@ -44,14 +46,12 @@ def between_plates(engine, x, y, restitution, tiles=1):
     floor = np.concatenate([plate(FLOOR / tiles) + np.array([i, j, 0.0]) for i in middles for j in middles])
     ceiling = plate(FLOOR)[:, ::-1] + np.array([0.0, 0.0, CEILING])
     triangles = np.concatenate([floor, ceiling]) if engine == "event-driven" else floor
-    walls = dataclasses.replace(stream.walls, triangles=triangles, restitution=restitution, friction=0.0)
-    return dataclasses.replace(
-        stream, nozzles=(nozzle,), walls=walls, duration=25e-6, interval=1, time_step_share=0.05
-    )
+    walls = dataclasses.replace(stream.walls, triangles=triangles, restitution=restitution, friction=0.1)
+    return dataclasses.replace(stream, nozzles=(nozzle,), walls=walls, duration=25e-6, interval=1, time_step_share=0.05)
 
 
 def after_first(contacts):
-    """Velocity (3,) over speed after the first hit: as it comes to the ceiling, or from the hit's impulse; NaN if none."""
+    """Velocity (3,) over speed after the first hit: as at the ceiling, or from the hit's impulse; NaN if none."""
     if contacts.interval:
         impulse = contacts.force.sum(axis=0) * contacts.interval
         return (contacts.velocity[0] + impulse / STEEL_SHOT.mass) / SPEED
@@ -98,7 +98,7 @@ def test_restitution_at_both_ends(restitution, engine, rung, tmp_path):
     calm(rung, contacts)
     out = after_first(contacts)
     rung.near("speed along the normal, out over in", out[2] / math.cos(SLANT), restitution, abs=0.01)
-    rung.near("speed across, out over in", out[0] / math.sin(SLANT), 1.0, rel=0.01)
+    rung.between("speed across, out over in", out[0] / math.sin(SLANT), *ACROSS)
 
 
 @both
@@ -111,14 +111,14 @@ def test_where_facets_meet(where, engine, rung, tmp_path):
     calm(rung, contacts)
     out = after_first(contacts)
     rung.near("speed along the normal, out over in", out[2] / math.cos(SLANT), 0.4, abs=0.02)
-    rung.near("speed across, out over in", out[0] / math.sin(SLANT), 1.0, rel=0.02)
+    rung.between("speed across, out over in", out[0] / math.sin(SLANT), *ACROSS)
     rung.below("speed aside over the shot's", abs(out[1]), 0.02)
 
 
 @both
 @pytest.mark.parametrize("where", ["outer edge", "outer corner"])
 def test_off_the_rim(where, engine, rung, tmp_path):
-    """The middle of the shot passes a hundredth of its radius outside the plate: it is pushed aside, and no faster."""
+    """The shot's middle passes a hundredth of its radius outside the plate: it is pushed aside, and no faster."""
     rung.title = f"{where} of the plate, {engine}"
     away = FLOOR + 0.005 * STEEL_SHOT.diameter
     contacts = thrown(between_plates(engine, -away, -away if "corner" in where else 2e-3, 0.4), tmp_path, engine)
@@ -127,9 +127,11 @@ def test_off_the_rim(where, engine, rung, tmp_path):
 
 
 @both
-@pytest.mark.parametrize("gap", [0.2, 0.98, 1.02, 1.2])
+@pytest.mark.parametrize(
+    "gap", [pytest.param(0.2, marks=pytest.mark.long), 0.98, 1.02, pytest.param(1.2, marks=pytest.mark.long)]
+)
 def test_gap_between_rod_and_hole(gap, engine, rung, tmp_path):
-    """A rod in a hole, the ring between them `gap` shot diameters wide: nothing passes where it is narrower than one."""
+    """A rod in a hole, the ring between them `gap` shot diameters wide: nothing passes a narrower one than a shot."""
     rung.title = f"gap of {gap:g} d between rod and hole, {engine}"
     radius = 2e-3
     rod_diameter = 2 * (radius - gap * STEEL_SHOT.diameter)

@@ -99,7 +99,9 @@ def read(folder, page):
 def number(value):
     if value is None:
         return ""
-    return "none" if math.isnan(value) else f"{value:.4g}"
+    if math.isnan(value):
+        return "none"
+    return f"{value:,.0f}" if value.is_integer() and abs(value) < 1e9 else f"{value:.4g}"
 
 
 def off_by(row):
@@ -196,7 +198,7 @@ def head(records, page):
         f"{datetime.datetime.now(datetime.UTC):%Y-%m-%d}: peenflow {peenflow.__version__}, Python "
         f"{platform.python_version()}, {versions}; {machine()}."
     )
-    return f"{text}\n\n{page.told}" if page.told else text
+    return f"{text}\n\n{page.told.strip()}" if page.told else text
 
 
 def write(records, docs, page):

@@ -36,7 +36,14 @@ def record(passed, **changes):
     rung = ladder.Rung()
     rung.near("force", 57.0 if passed else 50.0, 58.0, "N", rel=0.02)
     told = "One shot.\n\nSource: a book."
-    fields = {"module": "test_single_shot", "told": told, "test": "test_at_8_m_s", "title": "", "passed": passed, "start": 0.0}
+    fields = {
+        "module": "test_single_shot",
+        "told": told,
+        "test": "test_at_8_m_s",
+        "title": "",
+        "passed": passed,
+        "start": 0.0,
+    }
     fields |= {"fault": "" if passed else "AssertionError: force", "seconds": 60.0, "curves": {}}
     return fields | {"rows": [dataclasses.asdict(row) for row in rung.rows]} | changes
 
@@ -68,5 +75,5 @@ def test_what_every_scene_states_is_summed_up_in_one_table(tmp_path):
     page = (tmp_path / "stability.md").read_text()
     assert "| scene | elements | energy error | s |" in page
     assert "| *band* |  | ≤ 0.02 | |" in page
-    assert "| 300 m/s | 4000 | **0.03** | 60 |" in page
+    assert "| 300 m/s | 4,000 | **0.03** | 60 |" in page
     assert page.count("| energy error |") == 1

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 from decks import inconel
+
 from hard_scenes import reshaping
 from hard_scenes.scene import Hit, Scene
-
 from peenflow.case.model import Constants, JohnsonCookConstants
 from peenflow.materials import library
 from peenflow.records.material import RateHardening, ThermalSoftening
@@ -34,20 +34,26 @@ def hot(share):
 
 
 SPEEDS = {f"{speed} m/s": normal(float(speed)) for speed in (20, 62.5, 100, 150, 200, 250)} | {
-    "300 m/s": normal(300.0, elements=5.0),
+    "300 m/s": normal(300.0, elements=6.0),
     "copper, 200 m/s": normal(200.0, material=named("ofhc-copper"), elements=11.0, refine=1.3, growth=1.35),
-    "Al 2024, 200 m/s": normal(200.0, material=named("al2024-t351"), elements=5.0),
+    "Al 2024, 200 m/s": normal(200.0, material=named("al2024-t351"), elements=6.0),
     "glass bead of 0.05 mm": normal(100.0, diameter=0.05e-3, density=2500.0),
     "S780 shot": normal(60.0, diameter=1.98e-3),
 }
 
+
+def slanted(angle, friction):
+    """One hit from the side, half of it meshed."""
+    hit = Hit(SPEED, angle=float(angle))
+    elements = 3.0 if angle < 10 else 4.0
+    return Scene((hit,), cut="half", friction=friction, elements=elements, growth=1.4, refine=1.4, relaxation=0.02)
+
+
 GRAZING = {
-    f"{angle}°, friction {friction:g}": Scene(
-        (Hit(SPEED, angle=float(angle)),), cut="half", friction=friction, elements=3.0, growth=1.4, refine=1.4,
-        relaxation=0.02,
-    )  # fmt: skip
+    f"{angle}°, friction {friction:g}": slanted(angle, friction)
     for angle in (5, 15, 30, 60)
     for friction in (0.0, 0.3, 1.0)
+    if angle > 15 or friction < 1
 }
 
 
@@ -107,18 +113,16 @@ MATERIALS = {
     "C = 0.1": normal(material=inconel(rate=RateHardening(0.1, 1.0))),
     "n = 0.01": normal(material=inconel(n=0.01)),
     "n = 1": normal(material=inconel(n=1.0)),
-    "ν = 0.49, hourglass coefficient 0.004": normal(
-        material=inconel(poisson=0.49), hourglass=0.004, relaxation=0.02
-    ),
+    "ν = 0.49, hourglass coefficient 0.004": normal(material=inconel(poisson=0.49), hourglass=0.004, relaxation=0.02),
     "half-way to melting": normal(material=hot(0.5)),
     "nine tenths of the way to melting, hourglass coefficient 0.02": normal(
-        material=hot(0.9), elements=7.0, hourglass=0.02, refine=1.4, relaxation=0.01
+        material=hot(0.9), elements=9.0, hourglass=0.02, refine=1.3, relaxation=0.01
     ),
-    "Al 7075 heated to melting by 300 m/s": normal(300.0, material=named("al7075-t6")),
+    "Al 7075 heated to melting by 300 m/s": normal(300.0, material=named("al7075-t6"), elements=6.0),
     "A ten times too low": normal(material=inconel(A=124.1e6), elements=7.0, refine=1.4),
 }
 
-STEPS = {f"{share:g} of the stable step": normal(time_step=share) for share in (0.5, 0.7, 0.8, 0.9, 0.95, 0.98)}
+STEPS = {f"{share:g} of the stable step": normal(time_step=share) for share in (0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 1.0)}
 
 MESHES = {
     "aspect 10, flat, hourglass coefficient 0.002": normal(
@@ -130,7 +134,7 @@ MESHES = {
     "growth 1.5": normal(growth=1.5),
     "one element thick": normal(thickness=RADIUS / 4, hourglass=0.01),
     "float32": normal(precision="float32", mirrors=()),
-    "float32, 300 m/s": normal(300.0, precision="float32", mirrors=()),
+    "float32, 300 m/s": normal(300.0, elements=6.0, precision="float32", mirrors=()),
 }
 
 LIMITS = {
@@ -141,6 +145,8 @@ LIMITS = {
     "copper, 200 m/s, four elements in a dent's radius": normal(200.0, material=named("ofhc-copper")),
     "ν = 0.49, usual hourglass coefficient": normal(material=inconel(poisson=0.49), relaxation=0.02),
     "a hundredth below melting": normal(material=hot(0.99), elements=6.0, relaxation=0.02),
+    "5°, friction 1": slanted(5, 1.0),
+    "15°, friction 1": slanted(15, 1.0),
 }
 
 GROUPS = {

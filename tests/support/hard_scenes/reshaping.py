@@ -4,8 +4,8 @@ import dataclasses
 from collections.abc import Callable
 
 import numpy as np
-from hard_scenes.run import scaled_jacobians
 
+from hard_scenes.run import scaled_jacobians
 from peenflow.geometry.block import quad_areas
 from peenflow.records.target import Patch
 
@@ -13,7 +13,7 @@ SEED = 3
 
 
 def distorted(least: float) -> Callable[[Patch], Patch]:
-    """Inner nodes moved at random, by as much as brings the least scaled Jacobian to `least`; faces stay as they are."""
+    """Inner nodes moved at random, until the least scaled Jacobian is `least`; faces stay as they are."""
 
     def reshape(patch: Patch) -> Patch:
         low, high = patch.nodes.min(axis=0), patch.nodes.max(axis=0)

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 
 import numba
 import numpy as np
-from hard_scenes.scene import Scene, build
 
+from hard_scenes.scene import Scene, build
 from peenflow.fe import outcome
-from peenflow.fe.ordering import in_order_of_deck
 from peenflow.fe.relaxation import relax
 from peenflow.fe.solver import Solver
 
@@ -62,7 +61,7 @@ class Weighed(Solver):
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a scene came to (SI), in the deck's order."""
+    """What a scene came to (SI), nodes and elements in the order of `solver.deck`."""
 
     solver: Weighed
     seconds: float
@@ -73,7 +72,7 @@ class Outcome:
     peeq: np.ndarray  # (m,)
     figures: dict[str, float]  # that a finer mesh confirms
     depth: np.ndarray  # (l,)
-    stress: np.ndarray  # (l,) mean of (S11 + S22)/2 under the first hit, over its dent
+    stress: np.ndarray  # (l,) mean of (S11 + S22)/2 in the first dent (a slanted hit's: where it is deepest)
     least_volume: float  # of an element, over its undeformed one
     least_jacobian: float  # scaled, over all corners
     finite: bool
@@ -88,13 +87,15 @@ def run(scene: Scene, solver: Weighed | None = None) -> Outcome:
     residual = relax(solver, solver.deck.controls.relaxation_time)
     state, spheres, patch = solver.state, outcome.sphere_results(solver), solver.deck.patch
     stress, volumes = outcome.stresses(solver)
-    depth, profile = _profile(patch, stress, scene)
     u = state.u.astype(float)
     out, first = spheres.velocity_out, scene.hits[0]
+    surface = patch.node_sets["surface"]
+    deepest = patch.nodes[surface[np.argmin(u[surface, 2])], :2]
+    depth, profile = _profile(patch, stress, first.at if first.angle == 90 else deepest, scene.dent.radius)
     figures = {
         "restitution": float(out[0, 2] / -first.velocity[2]),
         "peak force [N]": float(spheres.peak_force[0]),
-        "dent's depth [µm]": float(-1e6 * u[patch.node_sets["surface"], 2].min()),
+        "dent's depth [µm]": float(-1e6 * u[surface, 2].min()),
         "least residual stress [MPa]": float(1e-6 * profile.min()),
     }
     if first.angle < 90:
@@ -106,8 +107,8 @@ def run(scene: Scene, solver: Weighed | None = None) -> Outcome:
         residual=residual,
         momentum=momentum,
         velocity_out=out,
-        displacement=in_order_of_deck(u, solver.order.nodes),
-        peeq=outcome.element_values(solver, state.peeq),
+        displacement=u,
+        peeq=outcome.blocked_values(solver, state.peeq),
         figures=figures,
         depth=depth,
         stress=profile,
@@ -134,9 +135,9 @@ def _jacobians(points, hexes):
     return np.linalg.det(edges), np.linalg.norm(edges, axis=-1).prod(axis=-1)
 
 
-def _profile(patch, stress, scene):
-    """Depths (l,) and mean (S11 + S22)/2 (l,) of the columns whose middle lies in the first hit's dent."""
-    near = np.hypot(*(patch.uv - scene.hits[0].at).T) < scene.dent.radius
+def _profile(patch, stress, at, radius):
+    """Depths (l,) and mean (S11 + S22)/2 (l,) of the columns whose middle lies within `radius` of `at`."""
+    near = np.hypot(*(patch.uv - at).T) < radius
     layers = np.arange(patch.layer.max() + 1)
     inside = near[patch.column]
     weight = patch.area[patch.column] * inside

@@ -20,6 +20,7 @@ from peenflow.scene import ShotProperties
 LEAD = 1e-9  # s of flight before the first touch
 FINE = 2.0  # dent radii of uniform elements around the hits
 REACH = 6.0  # shot radii from the hits to the absorbing faces
+REST = 10.0  # times a shear wave's way there: the longest relaxation
 
 
 @dataclass(frozen=True)
@@ -140,9 +141,14 @@ def build(scene: Scene) -> Deck:
         friction=scene.friction,
     )
     controls = {
-        "title": "stability", "end_time": scene.end, "time_step_share": scene.time_step, "precision": scene.precision,
-        "hourglass_stiffness": scene.hourglass, "relaxation": scene.relaxation, "relaxation_time": 40 * REACH * 0.5 * shot.diameter / scene.material.c_s,
-    }  # fmt: skip
+        "title": "stability",
+        "end_time": scene.end,
+        "time_step_share": scene.time_step,
+        "precision": scene.precision,
+        "hourglass_stiffness": scene.hourglass,
+        "relaxation": scene.relaxation,
+        "relaxation_time": REST * REACH * 0.5 * shot.diameter / scene.material.c_s,
+    }
     return deck(patch, scene.material, rollers=held, far_fields=far, spheres=spheres, controls=controls)
 
 

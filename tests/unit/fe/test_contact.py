@@ -23,8 +23,10 @@ def surface(points, mass=1e-12):
     return Surface(np.array(points, float), np.zeros((n, 3)), np.zeros((n, 3)), np.full(n, mass), held, np.eye(3)[None])
 
 
-def candidates(count):
-    return Candidates(np.array([0, count]), np.arange(count), np.zeros((count, 3)), np.zeros(count))
+def candidates(count, spheres=1):
+    """The first `count` nodes, at rest before the step and predicted to stay so, near every sphere."""
+    start, total = count * np.arange(spheres + 1), count * spheres
+    return Candidates(start, np.tile(np.arange(count), spheres), *np.zeros((2, total, 3)), np.zeros(total))
 
 
 def momentum(balls, nodes):
@@ -96,7 +98,7 @@ def test_two_spheres_on_the_same_nodes_book_what_they_lose(friction):
     one, other = (ball(v, mass=1e-8, height=-1e-6) for v in ([20.0, 0, -60.0], [-30.0, 5.0, -40.0]))
     other.centre[0, 0] = 1e-5
     balls = Balls(*(np.concatenate(pair) for pair in zip(one, other, strict=True)))
-    shared = Candidates(np.array([0, 40, 80]), np.tile(np.arange(40), 2), np.zeros((80, 3)), np.zeros(80))
+    shared = candidates(40, spheres=2)
 
     def kinetic():
         turning = 0.4 * balls.mass * balls.radius**2 * (balls.spin**2).sum(axis=1)
@@ -108,3 +110,19 @@ def test_two_spheres_on_the_same_nodes_book_what_they_lose(friction):
     assert (shared.pressed[:40] > 0).any()
     assert (shared.pressed[40:] > 0).any()
     assert lost + rubbed == pytest.approx(before - kinetic(), rel=2e-3 if friction else 1e-9)
+
+
+def test_backwards_the_last_sphere_comes_first():
+    """Solver steps take turns: once the first of two shots beside each other always got more, and left 6 % faster."""
+    points = np.c_[np.random.default_rng(2).uniform(-2e-5, 2e-5, (40, 2)), np.zeros(40)]
+    speeds = ([20.0, 0, -60.0], [-30.0, 5.0, -40.0])
+
+    def corrected(order, backwards):
+        pair = [ball(speeds[i], mass=1e-11, height=-1e-6) for i in order]
+        balls = Balls(*(np.concatenate(both) for both in zip(*pair, strict=True)))
+        correct(balls, candidates(40, spheres=2), surface(points), DT, 0.3, np.zeros((2, 3)), backwards)
+        return balls.velocity
+
+    forwards = corrected([0, 1], False)
+    np.testing.assert_array_equal(corrected([1, 0], True)[::-1], forwards)
+    assert not np.allclose(corrected([0, 1], True), forwards, rtol=1e-6)
