@@ -3,7 +3,8 @@
 Arrays become datasets, numbers and strings attributes, nested records groups, `None` nothing;
 dictionaries of arrays become a group of datasets, tuples of records a group of numbered groups,
 tuples of strings an attribute.
-Each dataset carries `unit` and `meaning`, the file its record's name and layout version.
+Each dataset carries `unit` and `meaning`, the file its record's name and layout version. Strings have a fixed length:
+the heap that HDF5 keeps others in makes its library run for ever when it is damaged.
 """
 
 import dataclasses
@@ -21,7 +22,7 @@ from peenflow.errors import InputError
 from peenflow.files import written_whole
 from peenflow.records.fields import Quantity, quantities
 
-LAYOUT = 1
+LAYOUT = 2
 INFLATED = 1100  # B in memory of a byte in the file: more is no data (zlib packs to 1/1032 at best)
 LARGEST = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2  # B, of an array
 KINDS = {"int32": "iu", "int64": "iu", "bool": "b"}  # of numpy, by the declared type; without one any number
@@ -41,7 +42,7 @@ def save(record: Any, path: Path) -> None:
         RunError: the disk refuses.
     """
     with h5py.File(path.name, "w", driver="core", backing_store=False) as file:
-        file.attrs["record"] = type(record).__name__
+        file.attrs["record"] = _fixed(type(record).__name__)
         file.attrs["layout"] = LAYOUT
         _write(file, record)
         file.flush()
@@ -59,10 +60,10 @@ def load(cls: type[R], path: Path) -> R:
     """
     try:
         with h5py.File(path, "r") as file:
-            if file.attrs.get("record") != cls.__name__ or file.attrs.get("layout") != LAYOUT:
+            held = [_attribute(file, key) if key in file.attrs else "unknown" for key in ("record", "layout")]
+            if held != [cls.__name__, LAYOUT]:
                 raise InputError(
-                    f"{path} holds {file.attrs.get('record', 'no record')} of layout "
-                    f"{file.attrs.get('layout', 'unknown')}, not {cls.__name__} of layout {LAYOUT}. "
+                    f"{path} holds {held[0]} of layout {held[1]}, not {cls.__name__} of layout {LAYOUT}. "
                     "It was written by another version: remove it and run again."
                 )
             return typing.cast(R, _read(file, cls))
@@ -90,9 +91,30 @@ def _write(group: h5py.Group, record: Any) -> None:
             for i, item in enumerate(value):
                 _write(sub.create_group(f"{i:04d}"), item)
         elif isinstance(value, tuple):
-            group.attrs[name] = list(value)
+            texts = [item.encode() if isinstance(item, str) else item for item in value]
+            group.attrs[name] = np.array(texts)
         else:
-            group.attrs[name] = value
+            group.attrs[name] = _fixed(value)
+
+
+def _fixed(value: Any) -> Any:
+    """Strings as UTF-8 bytes, which HDF5 stores at their length; the rest as it is."""
+    if not isinstance(value, str):
+        return value
+    text = value.encode()
+    return np.array(text, dtype=h5py.string_dtype("utf-8", max(len(text), 1)))
+
+
+def _attribute(group: h5py.Group, name: str) -> Any:
+    """An attribute as `_fixed` wrote it: a number, a string, or an array of either."""
+    if group.attrs.get_id(name).dtype.hasobject:
+        raise ValueError(f"{name} is of variable length")
+    value = group.attrs[name]
+    if isinstance(value, bytes):
+        return value.decode()
+    if isinstance(value, np.ndarray):
+        return [item.decode() if isinstance(item, bytes) else item for item in value]
+    return value
 
 
 def _write_array(group: h5py.Group, name: str, value: np.ndarray) -> h5py.Dataset:
@@ -101,7 +123,7 @@ def _write_array(group: h5py.Group, name: str, value: np.ndarray) -> h5py.Datase
 
 
 def _describe(item: h5py.Dataset | h5py.Group, quantity: Quantity) -> None:
-    item.attrs.update({key: value for key, value in quantity._asdict().items() if value})
+    item.attrs.update({key: _fixed(value) for key, value in quantity._asdict().items() if value})
 
 
 def _read(group: h5py.Group, cls: Any) -> Any:
@@ -140,7 +162,7 @@ def _read_field(group: h5py.Group, name: str, hint: Any) -> Any:
         return _read_tuple(group, name, typing.get_args(hint)[0])
     if name in group:
         return _array(group, name)
-    value = group.attrs[name]
+    value = _attribute(group, name)
     return hint(value) if hint in (int, float, str, bool) else value
 
 
@@ -167,4 +189,4 @@ def _read_tuple(group: h5py.Group, name: str, item: Any) -> tuple[Any, ...]:
             if name in group
             else ()
         )
-    return tuple(item(v) for v in group.attrs[name]) if name in group.attrs else ()
+    return tuple(item(v) for v in _attribute(group, name)) if name in group.attrs else ()

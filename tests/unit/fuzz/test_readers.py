@@ -1,7 +1,6 @@
 """Files of numbers, whatever is done to them: read, or refused in one paragraph; never a hang, never all memory."""
 
 import math
-import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -245,15 +244,12 @@ for seed in range(int(sys.argv[3]), int(sys.argv[3]) + 20):
 
 @pytest.mark.parametrize("seed", [0, 20, 40])
 def test_a_record_with_bytes_overwritten(tmp_path: Path, whole: bytes, seed: int):
-    """In a process of its own: the HDF5 library itself dies of one such file in some thousands.
-
-    A run compares its files with their hashes before it opens them, so that only a deck from elsewhere comes so far.
-    """
+    """In a process of its own: with strings on its heap the HDF5 library itself died of some such files, or never ended."""
     (tmp_path / "whole.h5").write_bytes(whole)
     command = [sys.executable, "-c", OVERWRITTEN, str(tmp_path / "whole.h5"), str(tmp_path / "contacts.h5"), str(seed)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
     assert "Traceback" not in done.stderr
-    assert done.returncode in (0, -signal.SIGSEGV, -signal.SIGABRT)
+    assert done.returncode == 0
 
 
 def delete(file: h5py.File, name: str, **new: Any) -> None:
@@ -286,7 +282,7 @@ def delete(file: h5py.File, name: str, **new: Any) -> None:
         (lambda f: (delete(f, "t"), f.__setitem__("t", h5py.ExternalLink("o.h5", "t"))), "t is a link to elsewhere"),
         (lambda f: f.attrs.__setitem__("shots", "many"), "cannot be read as Contacts"),
         (lambda f: f.attrs.__setitem__("shots", np.arange(3)), "cannot be read as Contacts"),
-        (lambda f: f.attrs.__setitem__("layout", 0), "of layout 0, not Contacts of layout 1"),
+        (lambda f: f.attrs.__setitem__("layout", 0), "of layout 0, not Contacts of layout 2"),
     ],
 )
 def test_what_is_no_record_of_its_kind(tmp_path: Path, whole: bytes, harm: Callable[[h5py.File], None], said: str):

@@ -91,10 +91,10 @@ def test_empty_collections_come_back(tmp_path: Path, field: str):
 
 def test_datasets_say_their_unit_and_meaning(path: Path):
     with h5py.File(path) as file:
-        assert (file.attrs["record"], file.attrs["layout"]) == ("Whole", hdf5.LAYOUT)
-        assert dict(file["array"].attrs) == {"unit": "Pa", "meaning": "a stress", "shape": "(n, 3)"}
-        assert dict(file["sets"].attrs)["meaning"] == "node numbers by set"
-        assert file["part"]["places"].attrs["unit"] == "m"
+        assert (file.attrs["record"], file.attrs["layout"]) == (b"Whole", hdf5.LAYOUT)
+        assert dict(file["array"].attrs) == {"unit": b"Pa", "meaning": b"a stress", "shape": b"(n, 3)"}
+        assert dict(file["sets"].attrs)["meaning"] == b"node numbers by set"
+        assert file["part"]["places"].attrs["unit"] == b"m"
         assert file["large"].compression == "gzip"
 
 
@@ -111,11 +111,11 @@ def test_a_missing_file_is_wrong_input(tmp_path: Path):
 
 
 def test_another_layout_or_record_is_wrong_input(path: Path):
-    with pytest.raises(InputError, match=r"holds Whole of layout 1, not Part of layout 1"):
+    with pytest.raises(InputError, match=r"holds Whole of layout 2, not Part of layout 2"):
         hdf5.load(Part, path)
     with h5py.File(path, "a") as file:
         file.attrs["layout"] = hdf5.LAYOUT + 1
-    with pytest.raises(InputError, match=r"holds Whole of layout 2, not Whole of layout 1.*remove it and run again"):
+    with pytest.raises(InputError, match=r"holds Whole of layout 3, not Whole of layout 2.*remove it and run again"):
         hdf5.load(Whole, path)
 
 
