@@ -39,10 +39,11 @@ def stoppable() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    by = signal.SIGINT
+    by, told = signal.SIGINT, False
 
     def stop(number: int, frame: FrameType | None) -> None:
-        nonlocal by
+        nonlocal by, told
+        told = True
         if number != signal.SIGALRM:
             by = signal.Signals(number)
             signal.setitimer(signal.ITIMER_REAL, AGAIN, AGAIN)
@@ -52,6 +53,8 @@ def stoppable() -> Iterator[None]:
     before = {number: signal.signal(number, stop) for number in (*SIGNALS, signal.SIGALRM)}
     try:
         yield
+        if told:
+            raise _Stop  # lost in a callback, and the block was done before it came again
     except _Stop:
         raise StoppedError(by) from None
     finally:

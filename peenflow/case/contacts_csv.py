@@ -164,8 +164,8 @@ def _number(path: Path, line: int, column: _Column, text: str) -> float:
         value = math.nan
     if not abs(value) <= LARGEST:
         raise InputError(
-            f"The table of contacts {path}, line {line}, column {column.header!r}: {text!r} is not a finite number, or one too large "
-            "to compute with. "
+            f"The table of contacts {path}, line {line}, column {column.header!r}: {text!r} is not a finite number, or "
+            "one too large to compute with. "
             "Mend the cell or export the table again."
         )
     return value

@@ -17,7 +17,8 @@ from peenflow.records.calibration import Calibration
 from peenflow.records.response import Response
 
 PLATE = "cases/plate"
-SMALL = ("--set", "accuracy.preset=draft", "--set", "accuracy.calibration_mesh_size=0.025 mm")
+VALUES = ("accuracy.preset=draft", "accuracy.calibration_mesh_size=0.025 mm", "dem.engine=liggghts")
+SMALL = tuple(part for value in VALUES for part in ("--set", value))
 
 
 def run(out: Path, cache: Path, *more: str, **environment: str) -> subprocess.CompletedProcess[str]:

@@ -21,6 +21,7 @@ VALUES = {
     "target.patch.length": "0.7 mm",
     "target.patch.width": "0.7 mm",
     "exposure.duration": "1 ms",
+    "dem.engine": "liggghts",
 }
 SETTINGS = tuple(part for key, value in VALUES.items() for part in ("--set", f"{key}={value}"))
 FILES = ("target.h5", "contacts.h5", "impacts.h5", "fe/deck.h5", "fe/deck.toml")

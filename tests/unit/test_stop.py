@@ -48,6 +48,12 @@ def interrupt_and_wait():
     wait()
 
 
+def losing():
+    with stoppable(), contextlib.suppress(BaseException):
+        os.kill(os.getpid(), signal.SIGINT)
+        wait()
+
+
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_a_signal_is_an_error_with_its_status(number, status):
     with pytest.raises(StoppedError) as stopped:
@@ -60,6 +66,12 @@ def test_a_stop_that_someone_swallows_comes_again():
     with pytest.raises(StoppedError):
         swallowing()
     assert time.monotonic() - start < 2
+
+
+def test_a_stop_lost_at_the_end_of_a_block_ends_it_all_the_same():
+    """It was forgotten with the block's timer, and the run went on to its end."""
+    with pytest.raises(StoppedError):
+        losing()
 
 
 def test_what_is_cleaned_up_on_the_way_out_is_left_in_peace():

@@ -118,7 +118,9 @@ def test_a_second_run_is_refused_and_told_the_first_and_disturbs_nothing(
         for line in first.stderr:
             if "started" in line:
                 break
+        os.kill(first.pid, signal.SIGSTOP)  # a run of seconds might be over before the second has looked
         second = tiny_case.run(tmp_path, cache)
+        os.kill(first.pid, signal.SIGCONT)
         assert second.returncode == 1
         assert f"in use by another run, process {first.pid}" in second.stderr
         assert second.stderr.startswith("Error: ")

@@ -209,7 +209,7 @@ def make_scene(case, surface):
         "rate_hardening": Decision(True, "auto: on", 0.11, 0.01, "1 + C ln(1.2e6 /s) = 1.19 at the dent", "4 %"),
         "gravity": Decision(False, "auto: off", 2e-6, 0.01, "2 g h / v² over <40 mm> of flight", "nothing"),
     }
-    knobs = Knobs(20e-6, 10e-6, 0.6e-3, "far-field", "symmetric", "impact", 0.8, 0.01, 0.2, 2, 1.5, 6.2)
+    knobs = Knobs(20e-6, 10e-6, 0.6e-3, "far-field", "symmetric", "impact", 0.8, 0.01, 0.2, 2, 1.5, 0.0, 6.2)
     return Scene(
         case=Case.model_validate(case),
         directory=Path("."),

@@ -244,7 +244,7 @@ for seed in range(int(sys.argv[3]), int(sys.argv[3]) + 20):
 
 @pytest.mark.parametrize("seed", [0, 20, 40])
 def test_a_record_with_bytes_overwritten(tmp_path: Path, whole: bytes, seed: int):
-    """In a process of its own: with strings on its heap the HDF5 library itself died of some such files, or never ended."""
+    """In a process of its own: with strings on its heap, the HDF5 library died of some such files or never ended."""
     (tmp_path / "whole.h5").write_bytes(whole)
     command = [sys.executable, "-c", OVERWRITTEN, str(tmp_path / "whole.h5"), str(tmp_path / "contacts.h5"), str(seed)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
