@@ -288,8 +288,10 @@ class Solver:
             UnstableError: they are not, or do not.
         """
         ledger, model = self.state.ledger, self.model
-        growth = ledger.imbalance / max(abs(ledger.work), 1e-300)
-        if growth <= LARGEST_GROWTH or len(model.loaded):
+        # what loads will have brought in, or a motion set by hand has, is not known: there only NaN tells
+        judged = ledger.work > 0.0 and not len(model.loaded)
+        growth = ledger.imbalance / ledger.work if judged else 0.0 * ledger.imbalance
+        if growth <= LARGEST_GROWTH:
             return
         fastest = int(np.argmax(np.nan_to_num(np.abs(self.state.v).max(axis=1), nan=np.inf)))
         what = f"energy has grown by {100 * growth:.2g} %" if np.isfinite(growth) else "energies are no longer finite"
