@@ -35,6 +35,16 @@ def equivalent(s):
     return math.sqrt(1.5 * double_dot(s, s))
 
 
+@inlined
+def may_yield(trial, chi, peeq, softening, law, kinematic):
+    """False where no rate could make the step plastic: without a logarithm or a power, for most elements.
+
+    |s − f χ| − f R falls with f as long as |χ| < R, and f is at least the softening; R is at least A − C/γ.
+    """
+    least = law.A - (kinematic.modulus / kinematic.recall if peeq > 0.0 else 0.0)
+    return equivalent(shifted(trial, chi, softening)) > softening * least
+
+
 @kernel
 def excess(delta, trial, chi, peeq, factor, law, kinematic):
     """Left less right side of the return's equation [Pa], which falls with Δ, and its derivative by Δ [Pa]."""

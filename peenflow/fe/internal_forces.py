@@ -13,7 +13,7 @@ import numpy as np
 from numba import prange
 
 from peenflow.fe import hourglass, modes
-from peenflow.fe.backstress import kinematic_increment, returned
+from peenflow.fe.backstress import kinematic_increment, may_yield, returned
 from peenflow.fe.jit import inlined, kernel, number, threaded
 from peenflow.fe.johnson_cook import plastic_increment, rate_factor, softening_factor
 from peenflow.fe.kinematics import midstep_gradient, rotated, rotation, strain_rate
@@ -198,11 +198,13 @@ def radial_return(work, peeq, temperature, law, rate, thermal):
 def kinematic_return(work, backstress, peeq, temperature, law, rate, thermal, kinematic):
     """`radial_return` onto the yield surface whose centre the backstress has moved."""
     for lane in range(LANES):
+        work[SCALE * LANES + lane] = 1.0
         trial, chi = get_deviator(work, DEVIATOR, lane), get_deviator(backstress, 0, lane)
         softening = 1.0 if thermal is None else softening_factor(temperature[lane], thermal)
-        factor = softening * rate_factor(work[STRAIN_RATE * LANES + lane], rate)
-        increment = kinematic_increment(trial, chi, float(peeq[lane]), factor, law, kinematic)
-        plastic_work = 0.0
+        increment, share, plastic_work = 0.0, 1.0, 0.0
+        if may_yield(trial, chi, peeq[lane], softening, law, kinematic):
+            factor = softening * rate_factor(work[STRAIN_RATE * LANES + lane], rate)
+            increment = kinematic_increment(trial, chi, float(peeq[lane]), factor, law, kinematic)
         if increment > 0.0:
             stress, chi, working = returned(trial, chi, increment, factor, law, kinematic)
             put_deviator(work, DEVIATOR, lane, stress)
@@ -211,11 +213,10 @@ def kinematic_return(work, backstress, peeq, temperature, law, rate, thermal, ki
             plastic_work = working * increment
             if thermal is not None:
                 temperature[lane] += thermal.heating * plastic_work
-        # half the step's work is done by the stress at its end: of what `elastic_trial` left for the trial, its share
-        work[SCALE * LANES + lane] = 1.0
-        rated = get_deviator(work, RATE, lane)
-        before = double_dot(trial, rated)
-        share = double_dot(get_deviator(work, DEVIATOR, lane), rated) / before if before != 0.0 else 1.0
+            # half the step's work is done by the stress at its end: of what was left for the trial's, its share
+            rated = get_deviator(work, RATE, lane)
+            before = double_dot(trial, rated)
+            share = double_dot(stress, rated) / before if before != 0.0 else 1.0
         work[(ENERGY + PLASTIC) * LANES + lane] *= plastic_work
         work[(ENERGY + INTERNAL) * LANES + lane] += share * work[SHEARING * LANES + lane]
 
