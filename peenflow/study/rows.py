@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from peenflow.study import errors
@@ -82,8 +81,3 @@ def _updates(summary: Mapping[str, Any]) -> float:
     """Of the finite elements that the summary counts: the patch's, or the cell's of a calibration alone."""
     fe = summary["fe"]
     return float(fe["elements"]) * float(fe["steps"])
-
-
-def place_of(directory: Path, point: Point) -> Path:
-    """The point's results directory."""
-    return directory / point.name

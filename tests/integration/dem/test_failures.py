@@ -6,10 +6,10 @@ import shutil
 import signal
 import subprocess
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
+import tiny_case
 
 from peenflow.dem.liggghts import Liggghts, deck
 from peenflow.dem.liggghts.engine import run_all
@@ -27,19 +27,6 @@ def ended(process):
     while (status := process.status()) is None:
         time.sleep(0.02)
     return status
-
-
-def liggghts_in(directory):
-    """Process ids of LIGGGHTS, and of the MPI daemon it starts, in `directory`."""
-    found = []
-    for process in Path("/proc").glob("[0-9]*"):
-        try:
-            inside = Path(os.readlink(process / "cwd")).is_relative_to(directory)
-        except OSError:
-            continue
-        if inside:
-            found.append(int(process.name))
-    return found
 
 
 @pytest.fixture
@@ -89,13 +76,13 @@ def test_interruption_leaves_no_process(long_stream, tmp_path, interruption):
     shards = [shard_of(long_stream, tmp_path / name) for name in ("first", "second")]
 
     def interrupt(_):
-        assert len(liggghts_in(tmp_path)) >= 2
+        assert len(tiny_case.processes_in(tmp_path)) >= 2
         raise interruption
 
     with pytest.raises(interruption):
         run_all(shards, interrupt)
     deadline = time.monotonic() + 5  # for MPI's daemon to notice
-    while liggghts_in(tmp_path):
+    while tiny_case.processes_in(tmp_path):
         assert time.monotonic() < deadline
         time.sleep(0.02)
 
