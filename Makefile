@@ -1,4 +1,4 @@
-# make setup | demo | test | test-long | verification | stability | stability-reference | study | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
+# make setup | demo | test | test-long | verification | stability | stability-reference | study | reproduction | bench-tests | lint: each sets up what it needs and is quick when there is nothing to do.
 SHELL := /bin/bash
 .DELETE_ON_ERROR:
 VENV := .venv
@@ -8,12 +8,12 @@ RESULTS := cases/bolt-hole/results
 LADDER := build/verification
 SCENES := build/stability
 
-.PHONY: setup demo test test-long verification stability stability-reference study bench-tests lint clean
+.PHONY: setup demo test test-long verification stability stability-reference study reproduction bench-tests lint clean
 
 setup: $(READY)
 
-$(READY): pyproject.toml tools/setup.sh peenflow/__init__.py
-	tools/setup.sh $(VENV)
+$(READY): pyproject.toml .ci/setup.sh peenflow/__init__.py
+	.ci/setup.sh $(VENV)
 	touch $@
 
 demo: setup
@@ -46,7 +46,11 @@ stability-reference: setup
 
 # accuracy against time: hours for all parts, of which PARTS="single-shot depth …" chooses; finished points are kept
 study: setup
-	$(BIN)/python tools/study.py $(PARTS)
+	$(BIN)/python docs/scripts/study.py $(PARTS)
+
+# the paper's tables and figures, docs/reproduction.md: under 40 minutes on two cores; PARTS chooses here too
+reproduction: setup
+	$(BIN)/python docs/scripts/reproduction/make.py $(PARTS)
 
 # how fast, not whether right: files bench_*.py, which no other target collects
 bench-tests: setup

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Install what peenflow needs: Debian packages where they are missing, and a virtual environment.
-# usage: tools/setup.sh VENV
+# usage: .ci/setup.sh VENV
 set -euo pipefail
 venv=$1
 

@@ -1,6 +1,6 @@
 """`make study`: the studies shipped with peenflow, docs/accuracy.md from them, and the table target and budget use.
 
-    python tools/study.py [PART …]
+    python docs/scripts/study.py [PART …]
 
 runs the parts named (all, if none is) in build/study, where finished points are kept, and writes the page from all
 parts that are finished there.
@@ -13,7 +13,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 BUILD = ROOT / "build" / "study"
 PAGE = ROOT / "docs" / "accuracy.md"
 PICTURES = ROOT / "docs" / "accuracy"
@@ -47,7 +47,7 @@ PARTS = {
     ),
     "depth": Part(
         "Depth of the patch, and how the load is brought on",
-        "tools/studies/one-impact",
+        "docs/scripts/cases/one-impact",
         "One impact in the middle of a patch of a thick plate.",
         knobs="depth,boundary,load",
         settings=("accuracy.mesh_size=0.02 mm",),

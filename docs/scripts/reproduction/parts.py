@@ -1,0 +1,109 @@
+"""What a part of the reproduction is: the paper's tables and figures it answers, and what was measured for them."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+
+ROOT = Path(__file__).parents[3]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure beside the paper's."""
+
+    what: str
+    paper: float | str | None  # None: the paper gives no number
+    measured: float | str
+    unit: str  # "" for a pure number
+    told: str  # one sentence: why they agree or differ
+
+
+@dataclass(frozen=True)
+class Table:
+    """Figures of which the paper has no counterpart one by one: a sweep, say."""
+
+    title: str
+    head: Sequence[str]
+    lines: Sequence[Sequence[float | str]]
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a part measured; pictures by file name, with captions."""
+
+    rows: Sequence[Row]
+    pictures: Mapping[str, str] = field(default_factory=dict)
+    tables: Sequence[Table] = ()
+    told: str = ""  # a paragraph under the rows
+
+
+@dataclass(frozen=True)
+class Part:
+    """One section of the page."""
+
+    title: str
+    of: str  # the paper's section, tables and figures
+    here: str  # where the program does the same: modules, functions, keys, commands
+    measure: Callable[["Bench"], Found]
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Where a part works: its runs, which are kept and not repeated while nothing they depend on has changed."""
+
+    work: Path  # of the part's runs
+    pictures: Path  # into which it draws
+
+    def case(self, name: str, like: str, changes: Mapping[str, Any] | None = None) -> Path:
+        """A case directory `name` as `like` (a folder of cases) with tables of case.toml replaced; None removes one."""
+        place = self.work / "cases" / name
+        place.mkdir(parents=True, exist_ok=True)
+        content = tomllib.loads((ROOT / "cases" / like / "case.toml").read_text(encoding="utf-8"))
+        for key, value in (changes or {}).items():
+            if value is None:
+                content.pop(key, None)
+            else:
+                content[key] = value
+        (place / "case.toml").write_text(tomli_w.dumps(content), encoding="utf-8")
+        return place
+
+    def run(self, case: Path, name: str, *settings: str, until: str | None = None) -> Path:
+        """Results of `peenflow run CASE --set …`, a process of its own; `case` may be a folder of cases."""
+        out = self.work / "results" / name
+        command = [sys.executable, "-P", "-m", "peenflow", "run", str(case), "--out", str(out)]
+        command += ["--until", until] if until else []
+        command += [word for setting in settings for word in ("--set", setting)]
+        began = time.monotonic()
+        done = subprocess.run(
+            command, cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, text=True
+        )
+        if done.returncode:
+            raise SystemExit(f"{name}: {done.stderr.strip() or done.stdout.strip()}")
+        print(f"    {name}: {time.monotonic() - began:.0f} s", flush=True)
+        return out
+
+
+def summary(results: Path) -> dict[str, Any]:
+    """summary.json of a run."""
+    content: dict[str, Any] = json.loads((results / "summary.json").read_text(encoding="utf-8"))
+    return content
+
+
+def cpu_seconds(results: Path, stage: str) -> float:
+    """CPU time of a stage when it was last computed."""
+    return next(float(row["cpu_s"]) for row in summary(results)["ledger"] if row["stage"] == stage)
+
+
+def store(found: Found, seconds: float, place: Path) -> None:
+    """Keep what a part measured."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    place.write_text(json.dumps(asdict(found) | {"seconds": seconds}, indent=1) + "\n", encoding="utf-8")
