@@ -28,10 +28,11 @@ PARTS: dict[str, Part] = {
 }
 HEAD = """# The paper, table by table and figure by figure
 
-Written by `make reproduction` from measured values; nothing in the columns *measured* and *ratio* is typed by hand. The
-paper is Bhuvanaraghan, Srinivasan, Maffeo, McLain, Potdar, Prakash: *Shot peening simulation using discrete and finite element
-methods*. It gives no Johnson–Cook constants and normalises its stresses with a yield stress it does not state, so
-that of many figures only the shape can be compared; where that is so, the column *paper* says what can be read from it.
+Written by `make reproduction` from measured values; nothing in the columns *measured* and *ratio* is typed by hand.
+The paper is Bhuvanaraghan, Srinivasan, Maffeo, McLain, Potdar, Prakash: *Shot peening simulation using discrete and
+finite element methods*. It gives no Johnson–Cook constants and normalises its stresses with a yield stress it does not
+state, so that of many figures only the shape can be compared; where that is so, the column *paper* says what can be
+read from it.
 """
 
 
