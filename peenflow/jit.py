@@ -5,17 +5,41 @@ Numba's own cache sees changes of the decorated file only, so the cache folder i
 
 import hashlib
 import os
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numba
+from numba.core import event
+
+from peenflow import compiling
 
 # Of numba's threading layers, OpenMP first: TBB, which comes with LIGGGHTS, has hung for minutes at a process's end.
 if "NUMBA_THREADING_LAYER_PRIORITY" not in os.environ:
     numba.config.THREADING_LAYER_PRIORITY = ["omp", "workqueue", "tbb"]  # type: ignore[attr-defined]
 
 Decorator = Callable[[Any], Any]
+
+
+class _Clock(event.Listener):
+    """Counts the time of compilations; one that another sets off is part of it."""
+
+    def __init__(self) -> None:
+        self._depth, self._began = 0, 0.0
+
+    def on_start(self, event: Any) -> None:
+        if self._depth == 0:
+            self._began = time.perf_counter()
+        self._depth += 1
+
+    def on_end(self, event: Any) -> None:
+        self._depth -= 1
+        if self._depth == 0:
+            compiling.SPENT.seconds += time.perf_counter() - self._began
+
+
+event.register("numba:compile", _Clock())  # type: ignore[no-untyped-call]
 
 
 def kernels_of(package: Path, **options: Any) -> Decorator:

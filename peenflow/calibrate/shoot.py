@@ -1,7 +1,6 @@
 """Shots on unit cells: at the lower speeds, then hit after hit at one point."""
 
 import math
-import time
 
 import numba
 import numpy as np
@@ -9,6 +8,7 @@ import numpy as np
 from peenflow.calibrate.hit import strike
 from peenflow.calibrate.stage import Inputs
 from peenflow.calibrate.unit_cell import cell_deck, half_cell, quarter_cell
+from peenflow.compiling import working_clock
 from peenflow.fe import outcome
 from peenflow.fe.guard import TRIES
 from peenflow.fe.ordering import in_order_of_deck
@@ -44,7 +44,7 @@ def calibrate(inputs: Inputs, progress: Progress) -> Calibration:
                 progress.note(f"{trouble.short} Beginning this hit again with smaller steps.")
         raise last
 
-    began = time.perf_counter()
+    began = working_clock()
     solvers: list[Solver] = []
     with progress.task("calibrate", len(inputs.lower_speeds) + inputs.hits) as task:
         slower = []
@@ -59,7 +59,7 @@ def calibrate(inputs: Inputs, progress: Progress) -> Calibration:
             solvers.append(solver)
             hits.append(found)
             task.update(len(solvers))
-    elapsed = time.perf_counter() - began
+    elapsed = working_clock() - began
     return _record(inputs, solvers, (*slower, hits[0]), tuple(hits), elapsed)
 
 

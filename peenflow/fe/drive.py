@@ -1,11 +1,11 @@
 """The FE deck in motion, then at rest."""
 
-import time
 from pathlib import Path
 
 import numba
 import numpy as np
 
+from peenflow.compiling import working_clock
 from peenflow.errors import RunError
 from peenflow.fe import checkpoint, outcome
 from peenflow.fe.guard import GaveUpError, Guard
@@ -30,14 +30,14 @@ def solve(deck: Deck, path: Path, progress: Progress) -> Response:
     solver = Solver(deck, numba.get_num_threads())
     if checkpoint.resume(solver, path):
         progress.note(f"solve goes on from step {solver.state.step} ({solver.state.time * 1e6:.3g} µs)")
-    began, first_step = time.perf_counter(), solver.state.step
+    began, first_step = working_clock(), solver.state.step
     try:
         residual = _advance(solver, path, progress)
     except GaveUpError as end:
         kept = path.parent / LAST_GOOD
         write_state(solver, kept)
         raise RunError(f"{end} The last good state, of step {solver.state.step}, lies in {kept}.") from end
-    elapsed = max(time.perf_counter() - began, 1e-9)
+    elapsed = max(working_clock() - began, 1e-9)
     _check(solver, residual, progress)
     rate = solver.model.elements * (solver.state.step - first_step) / elapsed
     return outcome.response(solver, residual, rate)

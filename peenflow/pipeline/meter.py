@@ -7,6 +7,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from peenflow import compiling
+
 SAMPLING_INTERVAL = 0.25  # s
 
 
@@ -17,10 +19,12 @@ class Cost:
     wall_s: float = 0.0
     cpu_s: float = 0.0
     peak_memory_B: int = 0  # noqa: N815 (the name it has in summary.json)
+    compile_s: float = 0.0  # of wall_s: kernels that were in no cache, once on each machine
 
     def __add__(self, other: "Cost") -> "Cost":
         peak = max(self.peak_memory_B, other.peak_memory_B)
-        return Cost(self.wall_s + other.wall_s, self.cpu_s + other.cpu_s, peak)
+        compiled = self.compile_s + other.compile_s
+        return Cost(self.wall_s + other.wall_s, self.cpu_s + other.cpu_s, peak, compiled)
 
 
 class Meter:
@@ -32,7 +36,7 @@ class Meter:
     """
 
     def __init__(self) -> None:
-        self._wall, self._cpu = time.monotonic(), _cpu_time()
+        self._wall, self._cpu, self._compiled = time.monotonic(), _cpu_time(), compiling.SPENT.seconds
         _reset_high_water()
         self._sampled = 0
         self._done = threading.Event()
@@ -44,7 +48,8 @@ class Meter:
         self._done.set()
         self._sampler.join()
         peak = max(_status_bytes(os.getpid(), "VmHWM"), self._sampled)
-        return Cost(time.monotonic() - self._wall, _cpu_time() - self._cpu, peak)
+        compiled = compiling.SPENT.seconds - self._compiled
+        return Cost(time.monotonic() - self._wall, _cpu_time() - self._cpu, peak, compiled)
 
     def _sample(self) -> None:
         while not self._done.wait(SAMPLING_INTERVAL):

@@ -25,6 +25,7 @@ def ledger(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
             "stage": outcome.stage,
             "wall_s": round(outcome.cost.wall_s, 3),
             "cpu_s": round(outcome.cost.cpu_s, 3),
+            "compile_s": round(outcome.cost.compile_s, 3),
             "peak_memory_B": outcome.cost.peak_memory_B,
             "predicted_wall_s": outcome.predicted_wall,
             "from_cache": outcome.state == "cached",

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 
 from peenflow.results import drawing
 
-# {stage, wall_s, cpu_s, peak_memory_B, predicted_wall_s, from_cache}; what was not predicted is None
+# {stage, wall_s, cpu_s, compile_s, peak_memory_B, predicted_wall_s, from_cache}; what was not predicted is None
 Row = Mapping[str, Any]
 
 

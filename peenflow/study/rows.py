@@ -23,13 +23,13 @@ class Row:
     point: Point
     accuracy: Mapping[str, Any]  # [accuracy] as it stood, keys and values as in the case file
     errors: Mapping[str, float | None]  # `error_…`, against the reference; of what is unsure against the base
+    change: float | None  # of the profile from the base's: what this knob alone does
     figures: Mapping[str, float | None]
-    cpu_s: float  # of all stages but the report
-    wall_s: float  # of all stages
+    cpu_s: float  # of all stages but the report, less compiling
+    wall_s: float  # of all stages, likewise
     updates: float  # element updates of solve and calibrate
     solver_wall_s: float  # of the stages that made them
     threads: int
-    cores_used: float = 1.0  # CPU over wall time
 
     @property
     def error(self) -> float:
@@ -41,16 +41,17 @@ class Row:
         """Columns of study.csv."""
         head = {"knob": self.point.knob, "value": self.point.value, "kind": self.point.kind}
         costs = {"cpu_s": self.cpu_s, "wall_s": self.wall_s, "element_updates": self.updates, "threads": self.threads}
-        return head | dict(self.errors) | costs | dict(self.figures)
+        return head | dict(self.errors) | {"change_profile": self.change} | costs | dict(self.figures)
 
 
-def row(point: Point, answer: Answer, against: Answer, accuracy: Mapping[str, Any], threads: int) -> Row:
+def row(point: Point, answer: Answer, against: Answer, base: Answer, accuracy: Mapping[str, Any], threads: int) -> Row:
     """The row of a finished point.
 
     Args:
         point: it.
         answer: what its run says.
         against: what it is compared with.
+        base: what it differs from in one knob.
         accuracy: its [accuracy].
         threads: it ran on.
     """
@@ -63,11 +64,12 @@ def row(point: Point, answer: Answer, against: Answer, accuracy: Mapping[str, An
         point=point,
         accuracy=accuracy,
         errors=errors.errors(answer, against),
+        change=errors.profile_error(answer.main, base.main),
         figures=figures,
-        cpu_s=round(sum(line["cpu_s"] for line in ledger if line["stage"] != UNTIMED), 3),
-        wall_s=round(sum(line["wall_s"] for line in ledger), 3),
+        cpu_s=round(sum(line["cpu_s"] - line["compile_s"] for line in ledger if line["stage"] != UNTIMED), 3),
+        wall_s=round(sum(line["wall_s"] - line["compile_s"] for line in ledger), 3),
         updates=_updates(answer.summary),
-        solver_wall_s=round(sum(line["wall_s"] for line in solving), 3),
+        solver_wall_s=round(sum(line["wall_s"] - line["compile_s"] for line in solving), 3),
         threads=threads,
     )
 

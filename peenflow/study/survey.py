@@ -111,7 +111,7 @@ def _rows(case: Case, planned: Plan, shop: Workshop, single: bool) -> tuple[Row,
         against = base if point.kind == "unsure" else reference
         known = shop.finished(point)
         threads = known["threads"] if known else shop.threads
-        rows.append(row(point, read(shop.place(point), single), against, _accuracy(case, point), threads))
+        rows.append(row(point, read(shop.place(point), single), against, base, _accuracy(case, point), threads))
     return tuple(rows)
 
 

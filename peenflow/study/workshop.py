@@ -127,7 +127,7 @@ def _at_work() -> Iterator[list[_Running]]:
 def _start(shop: Workshop, point: Point, base: Point, caches: Path) -> _Running:
     place = shop.place(point)
     _prepare(shop, point, base)
-    environment = os.environ | {"XDG_CACHE_HOME": str(_cache(caches / point.name))}
+    environment = os.environ | {"XDG_CACHE_HOME": str(fresh_cache(caches / point.name))}
     with open(place / "said.txt", "wb") as said:
         process = subprocess.Popen(
             shop.command(point), stdout=said, stderr=subprocess.STDOUT, env=environment, start_new_session=True
@@ -149,8 +149,8 @@ def _prepare(shop: Workshop, point: Point, base: Point) -> None:
     write_text_whole(marker, begun)
 
 
-def _cache(place: Path) -> Path:
-    """A cache directory with compiled kernels and what is known of this machine, but no calibrations."""
+def fresh_cache(place: Path) -> Path:
+    """A new cache directory `place` with compiled kernels and what is known of this machine, but no calibrations."""
     real = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "peenflow"
     (place / "peenflow").mkdir(parents=True)
     (real / "kernels").mkdir(parents=True, exist_ok=True)

@@ -36,7 +36,7 @@ def test_the_summary_says_what_the_contract_promises(finished: Path):
     assert {"title", "case_hash", "versions", "impacts", "fe", "residual", "effects", "ledger"} <= summary.keys()
     assert [row["stage"] for row in summary["ledger"]][-1] == "report"
     for row in summary["ledger"]:
-        assert set(row) == {"stage", "wall_s", "cpu_s", "peak_memory_B", "predicted_wall_s", "from_cache"}
+        assert set(row) == {"stage", "wall_s", "cpu_s", "compile_s", "peak_memory_B", "predicted_wall_s", "from_cache"}
         assert row["peak_memory_B"] > 0
     assert summary["effects"]["rate_hardening"]["state"] == "on"
     assert (finished / "report" / "index.html").exists()

@@ -272,6 +272,7 @@ def stage_costs():
             "stage": stage,
             "wall_s": wall,
             "cpu_s": 1.9 * wall,
+            "compile_s": 0.0,
             "peak_memory_B": 4.1e8,
             "predicted_wall_s": predicted,
             "from_cache": cached,

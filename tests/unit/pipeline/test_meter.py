@@ -35,3 +35,21 @@ def test_own_memory_counts_even_if_given_back():
 
 def test_an_interrupted_run_and_the_rest_add_up():
     assert Cost(1.0, 2.0, 30) + Cost(4.0, 5.0, 20) == Cost(5.0, 7.0, 30)
+
+
+def test_what_compiling_took_is_told_apart(tmp_path, monkeypatch):
+    """A kernel that is in no cache costs its stage time that the next run does not take."""
+    from peenflow.jit import kernels_of
+
+    (tmp_path / "kernel.py").write_text("def doubled(x):\n    return 2.0 * x\n")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    scope = {}
+    exec(compile((tmp_path / "kernel.py").read_text(), str(tmp_path / "kernel.py"), "exec"), scope)
+    doubled = kernels_of(tmp_path)(scope["doubled"])
+    meter = Meter()
+    doubled(1.0)
+    first = meter.stop()
+    meter = Meter()
+    doubled(2.0)
+    assert 0.01 < first.compile_s <= first.wall_s
+    assert meter.stop().compile_s == 0.0

@@ -20,7 +20,7 @@ def made(knob, value, kind, error, cpu, least=-1.6e9, accuracy=None):
     columns = dict.fromkeys(errors.COLUMNS) | {errors.PROFILE: error}
     figures = {"cor": 0.36, "peak_force_N": 58.0, "dent_depth_m": None, "min_Pa": least}
     point = Point(knob, value, {f"accuracy.{knob}": value} if kind == "knob" else {}, kind)
-    return Row(point, accuracy or {}, columns, figures, cpu, cpu + 1.0, 1e7 * cpu, cpu, 1)
+    return Row(point, accuracy or {}, columns, 0.01, figures, cpu, cpu + 1.0, 1e7 * cpu, cpu, 1)
 
 
 @pytest.fixture

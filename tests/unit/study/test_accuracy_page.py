@@ -13,18 +13,19 @@ ROOT = Path(__file__).parents[3]
 
 @pytest.fixture
 def tool(found, tmp_path, monkeypatch):
-    spec = importlib.util.spec_from_file_location("study_tool", ROOT / "tools" / "study.py")
+    spec = importlib.util.spec_from_file_location("study_tool", ROOT / "docs" / "scripts" / "study.py")
     module = importlib.util.module_from_spec(spec)
     monkeypatch.setitem(__import__("sys").modules, "study_tool", module)
     spec.loader.exec_module(module)
     monkeypatch.setattr(module, "BUILD", tmp_path)
     monkeypatch.setattr(module, "SHIPPED", tmp_path / "shipped.json")
     (tmp_path / "shipped.json").write_text("{}")
-    base = tmp_path / "single-shot" / "points" / "base"
-    base.mkdir(parents=True)
-    ledger = [{"stage": "calibrate", "wall_s": 12.0, "predicted_wall_s": 10.0}]
-    ledger.append({"stage": "report", "wall_s": 0.5, "predicted_wall_s": 0.6})
-    (base / "summary.json").write_text(json.dumps({"ledger": ledger}))
+    monkeypatch.setattr(module, "TIMES", tmp_path / "times")
+    for case in module.SHIPPED_CASES:
+        ledger = [{"stage": "calibrate", "wall_s": 13.0, "compile_s": 1.0, "predicted_wall_s": 10.0}]
+        ledger.append({"stage": "report", "wall_s": 0.5, "compile_s": 0.0, "predicted_wall_s": 0.6})
+        (tmp_path / "times" / case).mkdir(parents=True)
+        (tmp_path / "times" / case / "summary.json").write_text(json.dumps({"ledger": ledger}))
     return module
 
 
@@ -35,11 +36,11 @@ def read(found):
 
 def test_the_page_has_every_point_and_what_follows(tool, read):
     page = tool.page(read)
-    assert "| ★ | mesh_size | 0.02 mm | 6 | – | – | – | – | – | 1 |" in page
+    assert "| ★ | mesh_size | 0.02 mm | 6 | 1 | – | – | – | – | – | 1 |" in page
     assert "| least RCS | 1 | -1600 MPa | 0.78 |" in page
     assert "- for 3 % on the residual stress profile: relaxation 0.01" in page
     assert "Its own error of the profile, extrapolated: 2 %." in page
-    assert "| calibrate | 10 | 12 | 1.20 |" in page
+    assert "| `plate` | calibrate | 10 | 12 | 1.20 |" in page
     assert "Median of the ratios: 1.20." in page
 
 
