@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from peenflow.records.material import Material
+from peenflow.records.material import Material, ThermalSoftening
 from peenflow.scene import ShotProperties
 
 CONSTRAINT = 3.0  # mean pressure over flow stress in full plasticity (Tabor; Johnson, Contact Mechanics, eq. 6.13)
@@ -36,7 +36,8 @@ def predict(speed: float, shot: ShotProperties, material: Material) -> Dent:
     - contact time: a quarter period of the plastic spring 2πRp, (π/2)·√(m/(2πRp)), and half of an elastic impact at
       the speed of rebound, 2.94/2·δ'/(e v), δ' = (5/2)·W'/(π a² p)    (Johnson, §11.4, §11.5).
 
-    The flow stress depends on a and t_c, hence a fixed-point iteration; softening by heat is left out.
+    The flow stress depends on a and t_c, hence a fixed-point iteration. The metal is as soft as its temperature before
+    the hit makes it; the heat of the hit itself is left out.
 
     At 62.5 m/s on Inconel 718 with a steel shot of 0.3556 mm it gives a dent within 2 % in radius of what explicit
     FE gives (61.6 µm), and a contact time within 2 % of its 0.450 µs.
@@ -60,11 +61,18 @@ def predict(speed: float, shot: ShotProperties, material: Material) -> Dent:
 
 
 def flow_stress(material: Material, strain: float, rate: float) -> float:
-    """Johnson–Cook's (A + B εⁿ)(1 + C ln(ε̇/ε̇0)) [Pa] without softening."""
-    hardened = float(material.A + material.B * strain**material.n)
-    if material.rate is None:
-        return hardened
-    return hardened * (1 + material.rate.C * max(0.0, math.log(rate / material.rate.reference_rate)))
+    """Johnson–Cook's (A + B εⁿ)(1 + C ln(ε̇/ε̇0))(1 − ((T−T0)/(Tm−T0))^m) [Pa], T that of the part before the hit."""
+    stress = float(material.A + material.B * strain**material.n)
+    if material.rate is not None:
+        stress *= 1 + material.rate.C * max(0.0, math.log(rate / material.rate.reference_rate))
+    if material.thermal is not None:
+        stress *= 1 - _homologous(material.thermal) ** material.thermal.m
+    return stress
+
+
+def _homologous(thermal: ThermalSoftening) -> float:
+    """(T−T0)/(Tm−T0) of the part before the hit, 0 below T0."""
+    return max(0.0, thermal.initial - thermal.room) / (thermal.melt - thermal.room)
 
 
 def speed_for_depth(share: float, speed: float, shot: ShotProperties, material: Material) -> float:

@@ -17,7 +17,7 @@ from peenflow.dem.engine import FLUSH, rayleigh_step
 from peenflow.errors import InputError
 from peenflow.geometry.grading import layers
 from peenflow.loads.stage import AFTER_LAST, GROUP_INTERVAL
-from peenflow.mesh import grid
+from peenflow.mesh import grid, shape
 from peenflow.mesh import stage as mesh_stage
 from peenflow.records.upstream import Upstream
 from peenflow.repeats import CROWDING, HITS_PER_SHOT
@@ -28,7 +28,8 @@ from peenflow.scene import Scene, Skip
 FE_BYTES = 700.0  # an element's share of memory in the solver
 DEM_STEP = 6e-6  # s a time step of LIGGGHTS with nothing in flight
 DEM_SHOT = {True: 4e-7, False: 1.5e-7}  # s a time step and shot, beside a moving rod and without one
-EVENT = 1e-4  # s a shot and hit of the event-driven engine
+EVENT_START, EVENT_SHARD = 0.5, 6e-3  # s of the event-driven engine to load its kernels, and a shard
+EVENT_SHOT = {True: 1.5e-4, False: 5e-5}  # s a shot, in a hole with a rod and without one
 START = 1.5  # s to start Python and import what a run needs, its kernels compiled
 STAGE = 0.05  # s of a stage that has little to do
 SOLVER = 0.7  # s to load kernels before the first step
@@ -42,11 +43,11 @@ HIT_TIME = 2.0  # contact times from first touch to the end of a hit (`calibrate
 DAMPED = 0.942  # of the stable step, which linear bulk viscosity takes 6 % of
 SHORTENED = 1.1  # steps over those of the undeformed mesh: dents flatten elements
 
-# Steps of relaxation at a residual of 0.2 %, and their growth as it falls, fitted to single shots of 15,000 to 176,000
-# elements at 0.05 to 0.5 % and to patches of 5,000 to 17,000 at 0.05 and 0.2 %.
+# Steps of relaxation for each element in a row, at a residual of 0.2 %, and their growth as it falls: fitted to single
+# shots of 15,000 to 176,000 elements at 0.2 to 2 % and to patches of 5,000 to 56,000 at 0.03 to 0.2 %.
 REST, CREPT = 0.002, 0.8  # residual and share of the stable step
-CELL_REST, CELL_CREEP = 0.042, 0.69  # steps an element of the cell; exponent
-PATCH_REST, PATCH_CREEP = 22.0, 0.3  # steps for each of its elements in a row; exponent
+CELL_REST, CELL_CREEP = 26.0, 0.4  # steps; exponent
+PATCH_REST, PATCH_CREEP = 22.0, 0.3  # likewise
 
 ROWS_PER_HIT = 10.0  # contact rows of one hit at 20 % of the Rayleigh step, every second written
 MEETING_GROUPS = 1.2  # groups by impacts in the circle of the group distance, for points drawn at random
@@ -55,6 +56,7 @@ COARSEST = 2.0  # elements in a dent radius, below which a dent is not resolved
 MOST_IN_A_ROW = 10_000  # elements: their square is beyond any memory
 LARGEST_HOURGLASS = 0.12  # of the internal energy: 10 % is what a run may have, and the prediction errs by a fifth
 LARGEST_FRICTION = 0.5  # a shot rougher than this that grazes shears one layer of elements only, of whatever size
+FLATTEST_GRAZE = math.radians(10)  # from the surface, below which any friction does so
 LARGEST_DEM_STEP = 0.3  # of the Rayleigh step: beyond, restitution drifts (3 % at 0.53)
 
 
@@ -107,8 +109,8 @@ def estimate(scene: Scene) -> dict[str, Any]:
             "steps": round(sizes.fe_steps),
         },
         "dem": {
-            "rayleigh_s": rayleigh_step(scene.shot),
-            "time_step_s": scene.knobs.dem_time_step * rayleigh_step(scene.shot),
+            "rayleigh_s": rayleigh_step(scene.thrown.smallest),
+            "time_step_s": scene.knobs.dem_time_step * rayleigh_step(scene.thrown.smallest),
             "shots": round(sizes.shots),
             "steps": round(sizes.dem_steps),
             "engine": scene.engine.name if scene.engine else None,
@@ -152,7 +154,7 @@ def measure(scene: Scene) -> Sizes:
         impacts=impacts,
         groups=groups,
         fe_steps=SHORTENED * impacting / step + relaxing if elements else _cell_steps(scene, cell),
-        dem_steps=flown / (scene.knobs.dem_time_step * rayleigh_step(scene.shot)),
+        dem_steps=flown / (scene.knobs.dem_time_step * rayleigh_step(scene.thrown.smallest)),
         cell_elements=cell,
     )
 
@@ -168,8 +170,8 @@ def _cell_steps(scene: Scene, elements: int) -> float:
     hits = single.hits if single else CALIBRATION_RUNS
     rest = scene.knobs.relaxation if single else max(scene.knobs.relaxation, DENTS_AT_REST)
     hitting = SHORTENED * HIT_TIME * scene.contact_time / _time_step(scene, scene.knobs.calibration_mesh_size)
-    creeping = (CREPT / scene.knobs.time_step) ** 2  # the metal creeps by time, not by steps
-    return hits * (hitting + CELL_REST * elements * creeping * (REST / rest) ** CELL_CREEP)
+    creeping = CREPT / scene.knobs.time_step  # the metal creeps by time, not by steps
+    return hits * (hitting + CELL_REST * elements ** (1 / 3) * creeping * (REST / rest) ** CELL_CREEP)
 
 
 def _calibrates(scene: Scene) -> bool:
@@ -265,10 +267,10 @@ def _stages(scene: Scene, sizes: Sizes) -> dict[str, tuple[float, float]]:
 
 def _stream(scene: Scene, sizes: Sizes) -> float:
     """Wall time of the stream [s], on the machine of the stated rates."""
-    if scene.engine is not None and scene.engine.name == "event-driven":
-        return SOLVER + EVENT * sizes.shots * HITS_PER_SHOT
-    moving = scene.effects["deflector_motion"].on
     shards = scene.case.exposure.shards if scene.case.exposure else 1
+    if scene.engine is not None and scene.engine.name == "event-driven":
+        return EVENT_START + EVENT_SHARD * shards + EVENT_SHOT[scene.case.deflector is not None] * sizes.shots
+    moving = scene.effects["deflector_motion"].on
     return STAGE + sizes.dem_steps * (DEM_STEP * shards + DEM_SHOT[moving] * sizes.shots)
 
 
@@ -280,6 +282,12 @@ def _warnings(scene: Scene, sizes: Sizes) -> list[str]:
         found.append(
             f"accuracy.dem_time_step is {knobs.dem_time_step:g} of the Rayleigh step: above {LARGEST_DEM_STEP:g} "
             "LIGGGHTS' shots rebound with another coefficient of restitution than asked; use 0.2 or less."
+        )
+    if engine is not None and (knobs.facet_size or math.inf) < scene.shot.diameter:
+        found.append(
+            f"accuracy.facet_size is {(knobs.facet_size or 0.0) * 1e3:.3g} mm, shorter than the largest shot's "
+            f"diameter, {scene.shot.diameter * 1e3:.3g} mm: one contact may spread over several facets, among which "
+            "LIGGGHTS splits its force; give the diameter or more."
         )
     h = knobs.mesh_size if sizes.elements else knobs.calibration_mesh_size
     if h > scene.dent_radius / COARSEST * (1 + 1e-9):
@@ -293,11 +301,28 @@ def _warnings(scene: Scene, sizes: Sizes) -> list[str]:
             f"hourglass control will hold some {100 * held:.0f} % of the internal energy, where 10 % is tolerable: "
             "lower accuracy.mesh_size (it goes with the power 1.6 of it), or accuracy.hourglass."
         )
-    if scene.effects["contact_friction"].on and scene.case.dem.friction > LARGEST_FRICTION:
-        found.append(
-            f"dem.friction is {scene.case.dem.friction:g}: above {LARGEST_FRICTION:g} grazing shots take the surface "
-            "along, strain gathers in the first layer of elements, and finer ones change the answer."
-        )
+    meshed = mesh_stage.inputs(scene, Upstream())
+    if not isinstance(meshed, Skip):
+        found += shape.told(shape.under_dents(meshed))
+    found += _rubbed(scene)
     if sizes.elements and sizes.impacts < 1:
         found.append("less than one impact is expected on the patch: shoot longer, or make target.patch larger.")
+    return found
+
+
+def _rubbed(scene: Scene) -> list[str]:
+    """Warnings of friction that takes the surface along."""
+    if not scene.effects["contact_friction"].on:
+        return []
+    found, single, friction = [], scene.case.single_shot, scene.case.dem.friction
+    if friction > LARGEST_FRICTION:
+        found.append(
+            f"dem.friction is {friction:g}: above {LARGEST_FRICTION:g} grazing shots take the surface along, strain "
+            "gathers in the first layer of elements, and finer ones change the answer."
+        )
+    elif single and single.angle < FLATTEST_GRAZE:
+        found.append(
+            f"single_shot.angle is {math.degrees(single.angle):.3g} deg: below {math.degrees(FLATTEST_GRAZE):.3g} deg "
+            "with friction strain gathers in the first layer of elements, and residual stress depends on their size."
+        )
     return found

@@ -1,7 +1,5 @@
 """What share of the internal energy hourglass control will hold, before anything is computed."""
 
-import dataclasses
-
 from peenflow.dent import predict
 from peenflow.records.material import Material
 from peenflow.scene import ShotProperties
@@ -18,7 +16,7 @@ def share(mesh_size: float, coefficient: float, speed: float, shot: ShotProperti
     """Hourglass over internal energy of a normal hit with `speed` [m/s] on elements of `mesh_size` [m].
 
     x/(1 + x/MOST), x = FACTOR·(κ/0.05·(λ + 2G)/p)^0.763·(a/R)^1.53·(h/a)^1.60 with the dent's radius a and pressure p
-    in closed form (`dent.predict`), softened where the part is hot before it is hit.
+    in closed form (`dent.predict`).
 
     Args:
         mesh_size: of the elements under the dent [m].
@@ -27,16 +25,8 @@ def share(mesh_size: float, coefficient: float, speed: float, shot: ShotProperti
         shot: rigid.
         material: of the target.
     """
-    dent = predict(speed, shot, _softened(material))
+    dent = predict(speed, shot, material)
     stiffness = coefficient / USUAL * material.p_modulus / dent.pressure
     flat = dent.radius / (0.5 * shot.diameter)
     x = FACTOR * stiffness**STIFFNESS * flat**SIZE * (mesh_size / dent.radius) ** ELEMENTS
     return x / (1 + x / MOST)
-
-
-def _softened(material: Material) -> Material:
-    thermal = material.thermal
-    if thermal is None or thermal.initial <= thermal.room:
-        return material
-    soft = 1 - ((thermal.initial - thermal.room) / (thermal.melt - thermal.room)) ** thermal.m
-    return dataclasses.replace(material, A=soft * material.A, B=soft * material.B)

@@ -1,13 +1,13 @@
 """A case with everything the stages need resolved: materials, surface, effects, knobs. Closed forms only."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
-from peenflow.case.model import Case, Nozzle
+from peenflow.case.model import Case, Nozzle, PressureShape
 from peenflow.geometry import Surface
 from peenflow.records.material import Material
 
@@ -38,6 +38,11 @@ class Thrown:
     shares: np.ndarray  # (k,) by number, sum 1
 
     @property
+    def smallest(self) -> ShotProperties:
+        """The smallest shot."""
+        return replace(self.shot, diameter=float(self.diameters[0]))
+
+    @property
     def mass(self) -> float:
         """Of the mean shot [kg]: more than that of the shot of mean diameter."""
         return self.shot.mass * float(self.shares @ (self.diameters / self.shot.diameter) ** 3)
@@ -66,6 +71,8 @@ class Knobs:
     min_normal_speed: float  # m/s
     hourglass: float = 0.05  # Flanagan–Belytschko stiffness coefficient
     precision: Literal["float64", "float32"] = "float64"  # of the solver's arrays
+    pressure_shape: PressureShape = "growing-ellipse"  # where `load` is pressure
+    facet_size: float | None = None  # m, edges of the facets that DEM throws shots at; None: there is no part
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from peenflow.case import units
-from peenflow.case.accuracy import patch_depth
+from peenflow.case.accuracy import facet_size, patch_depth
 from peenflow.case.model import BoltHoleGeometry, Case, FilletGeometry, Nozzle, PlateGeometry, StepGeometry
 from peenflow.errors import InputError
 from peenflow.geometry import BoltHole, CadSurface, Plate, Surface
 from peenflow.geometry.cad import BladeRoot, StepFile, Wish, survey
+from peenflow.geometry.plane import Plane
 from peenflow.geometry.triangles import unit_normals
 from peenflow.materials import shots
 
@@ -66,7 +67,40 @@ def _faces(case: Case, geometry: FilletGeometry | StepGeometry, directory: Path)
     else:
         part = BladeRoot(geometry.radius, geometry.thickness, geometry.height, geometry.length, geometry.platform)
         x, y, z = in_fillet(geometry, units.to_si(patch.at[0], "m"), units.to_si(patch.at[1], "rad"))
-    return survey(part, Wish((x, y, z), patch.size, patch_depth(case, shot), shot.diameter, bool(case.nozzle)))
+    edges = facet_size(case, float(shots.thrown(case.shot, case.shot.size_spread).diameters[-1]))
+    assert edges is not None, "there is a geometry"
+    return survey(part, Wish((x, y, z), patch.size, patch_depth(case, shot), shot.diameter, edges, bool(case.nozzle)))
+
+
+def met(surface: Surface | None, start: np.ndarray, way: np.ndarray) -> Plane | None:
+    """The plane of the surface where a flight from `start` (3,) along `way` (3,) meets it; None: nowhere.
+
+    It touches the surface there; on CAD faces it is the facet's.
+    """
+    if isinstance(surface, CadSurface):
+        hit = _first_met(start, way, surface.triangles)
+        found = hit and Plane(start + hit[0] * way, unit_normals(surface.triangles[hit[1]][None])[0])
+    elif isinstance(surface, BoltHole):
+        distance = _to_wall(surface, start, way)
+        point = start + (distance or 0.0) * way
+        found = None if distance is None else Plane(point, surface.normals(point))
+    elif surface is not None and way[2] < 0:
+        found = Plane(start - start[2] / way[2] * way, np.array([0.0, 0.0, 1.0]))
+    else:
+        found = None
+    return found if found and found.normal @ way < 0 else None
+
+
+def _to_wall(hole: BoltHole, start: np.ndarray, way: np.ndarray) -> float | None:
+    """How many times `way` from `start` to the wall of a bore, from inside; None: out of a mouth."""
+    across = float(way[:2] @ way[:2])
+    if across == 0:
+        return None
+    towards, outside = float(start[:2] @ way[:2]), float(start[:2] @ start[:2]) - hole.radius**2
+    if towards**2 < across * outside:
+        return None
+    distance = (-towards + math.sqrt(towards**2 - across * outside)) / across
+    return distance if distance > 0 and 0 <= start[2] + distance * way[2] <= hole.length else None
 
 
 def in_fillet(geometry: FilletGeometry, along: float, angle: float) -> tuple[float, float, float]:

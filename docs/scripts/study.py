@@ -2,8 +2,8 @@
 
     python docs/scripts/study.py [PART …]
 
-runs the parts named (all, if none is; `times` is the shipped cases, predicted against actual) in build/study, where
-finished points are kept, and writes the page from all parts that are finished there.
+runs the parts named (all, if none is; `seeds`: scatter by area; `times`: the shipped cases, predicted against actual)
+in build/study, where finished points are kept, and writes the page from all parts that are finished there.
 """
 
 import json
@@ -13,8 +13,11 @@ import statistics
 import subprocess
 import sys
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+import seeds
 
 from peenflow.machine import threads
 from peenflow.study.workshop import fresh_cache
@@ -64,7 +67,7 @@ PARTS = {
         "Nine impacts",
         "cases/patch",
         "The multi-impact patch, whose means are over a square of 0.5 mm.",
-        knobs="mesh_size,time_step,relaxation,hourglass,preset",
+        knobs="mesh_size,time_step,relaxation,hourglass,active_radius,preset",
         settings=("accuracy.mesh_size=0.02 mm",),
         ships="patch",
     ),
@@ -72,14 +75,14 @@ PARTS = {
         "A stream on a plate",
         "cases/plate",
         "The DEM's knobs, grouping of impacts and the least speed that counts, beside the scatter over seeds.",
-        knobs="dem_time_step,contact_interval,group_distance,min_normal_speed,seed",
+        knobs="dem_time_step,contact_interval,facet_size,group_distance,min_normal_speed,seed",
         settings=("accuracy.preset=draft", "accuracy.mesh_size=0.03 mm"),
     ),
     "bolt-hole": Part(
         "The bolt hole from end to end",
         "cases/bolt-hole",
         "From the nozzle to the stress: mesh and depth of the patch, DEM time step, and the scatter over seeds.",
-        knobs="mesh_size,depth,dem_time_step,group_distance,seed",
+        knobs="mesh_size,depth,dem_time_step,facet_size,group_distance,seed",
         settings=("accuracy.preset=draft", "accuracy.mesh_size=0.05 mm"),
     ),
 }
@@ -124,6 +127,7 @@ def page(found: dict[str, dict]) -> str:
         "",
         *presets(found),
         *(line for name, study in found.items() for line in section(name, study)),
+        *seeds.section(),
         *(predictions() if TIMES.exists() else []),
     ]
     return "\n".join(lines) + "\n"
@@ -257,10 +261,13 @@ def free(accuracy: dict) -> dict:
     return {key: value for key, value in accuracy.items() if key not in MODELS}
 
 
+OTHERS = {"seeds": seeds.run, "times": run_shipped}  # parts that are no `peenflow study`
+
+
 def main(wanted: list[str]) -> None:
     """Run the parts, write the page and the table."""
-    for name in wanted or (*PARTS, "times"):
-        run_shipped() if name == "times" else run(name)
+    for name in wanted or (*PARTS, *OTHERS):
+        OTHERS.get(name, partial(run, name))()
     finished = [name for name in PARTS if (BUILD / name / "study.json").exists()]
     found = {name: json.loads((BUILD / name / "study.json").read_text()) for name in finished}
     PICTURES.mkdir(exist_ok=True)

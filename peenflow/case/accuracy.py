@@ -12,6 +12,7 @@ CONTACT_INTERVAL = 2  # DEM steps: loses at most 1 % of a contact's impulse
 CELL_WIDTH = 9.0  # shot radii of a single shot's unit cell: its faces hardly matter to the residual stress
 MARGIN = 1.0  # predicted dent radii between an impact that is loaded and the patch's edge
 HOURGLASS = 0.05  # Flanagan and Belytschko's coefficient
+FACET_SIZES = {"plate": 8.0, "bolt-hole": 1.35, "fillet": 1.6, "step": 1.6}  # shot diameters; see `facet_size`
 GROUP_DISTANCE = 1.5  # shot diameters: two simultaneous hits change the residual stress by 0.5 % rms (1.0: 1.2 %)
 
 
@@ -42,6 +43,18 @@ def patch_depth(case: Case, shot: ShotProperties) -> float:
     stated = case.accuracy.depth or (patch.depth if patch else None)
     depth = stated or PRESETS[case.accuracy.preset].depth * shot.diameter
     return min(depth, geometry.thickness) if isinstance(geometry, PlateGeometry) else depth
+
+
+def facet_size(case: Case, largest: float) -> float | None:
+    """Edges of DEM's facets [m]: accuracy.facet_size, else so that none is shorter than the largest shot's diameter.
+
+    A contact may spread over several facets with shorter edges and its force be split among them (the method's paper,
+    section 2.2). On a plane, which facets of any size follow, they may be large; those of a mesher's triangles scatter.
+    """
+    geometry = case.target.geometry
+    if geometry is None:
+        return None
+    return case.accuracy.facet_size or FACET_SIZES[geometry.kind] * largest
 
 
 @dataclass(frozen=True)
@@ -77,6 +90,7 @@ def knobs(case: Case, shot: ShotProperties, material: Material, dents: Dents, fa
         boundary="far-field" if far_field else "fixed",
         sides=given.sides,
         load=given.load,
+        pressure_shape=given.pressure_shape,
         time_step=given.time_step or preset.time_step,
         relaxation=given.relaxation or (preset.cell_relaxation if case.single_shot else preset.relaxation),
         dem_time_step=given.dem_time_step or preset.dem_time_step,
@@ -86,4 +100,5 @@ def knobs(case: Case, shot: ShotProperties, material: Material, dents: Dents, fa
         min_normal_speed=slowest,
         hourglass=given.hourglass or HOURGLASS,
         precision=given.precision,
+        facet_size=facet_size(case, shot.diameter),
     )

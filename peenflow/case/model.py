@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from peenflow.case import units
 
 Switch = Literal["auto", "on", "off"]
+PressureShape = Literal["uniform", "octagon", "ellipse", "growing-uniform", "growing-ellipse"]
 DisplayUnits = units.DisplayUnits
 Positive = Annotated[float, Field(gt=0)]
 PositiveLength = Annotated[units.Length, Field(gt=0)]
@@ -261,13 +262,15 @@ class Accuracy(Section):
     boundary: Literal["far-field", "fixed"] | None = None
     sides: Literal["symmetric", "free"] = "symmetric"
     load: Literal["impact", "pressure"] = "impact"
-    time_step: Annotated[float, Field(gt=0, le=1)] | None = None
-    relaxation: Annotated[float, Field(gt=0, lt=1)] | None = None
+    pressure_shape: PressureShape = "growing-ellipse"
+    time_step: Annotated[float, Field(ge=1e-3, le=1)] | None = None
+    relaxation: Annotated[float, Field(ge=1e-8, lt=1)] | None = None
     hourglass: Annotated[float, Field(gt=0, le=0.5)] | None = None
     precision: Literal["float64", "float32"] = "float64"
-    dem_time_step: Annotated[float, Field(gt=0)] | None = None
+    dem_time_step: Annotated[float, Field(ge=1e-3)] | None = None
     dem_time_step_forced: bool = False
     contact_interval: Annotated[int, Field(ge=1, le=4)] | None = None
+    facet_size: PositiveLength | None = None
     group_distance: Literal["off"] | Positive | None = None
     active_radius: Literal["off"] | Positive = "off"
     min_normal_speed: Annotated[units.Speed, Field(ge=0)] | None = None

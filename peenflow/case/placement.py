@@ -5,13 +5,15 @@ import math
 from collections.abc import Callable, Iterator
 
 from peenflow.case import cad_rules, units
-from peenflow.case.accuracy import patch_depth
+from peenflow.case.accuracy import FACET_SIZES, facet_size, patch_depth
 from peenflow.case.lines import KeyPath
 from peenflow.case.model import BoltHoleGeometry, Case, Deflector, Nozzle, PatchSize, PlateGeometry
 from peenflow.case.problems import Problem
 from peenflow.materials import shots
 
 MOST_SHOTS = 10_000_000
+LEAST_AROUND = 12  # facets around a hole: coarser, and the chords stand out by more than 3 % of its radius
+CONTACT = 0.3  # shot diameters: width of the circle in which sphere and plane overlap by 4 % of the radius, as shots do
 
 
 def _mm(length: float) -> str:
@@ -187,6 +189,34 @@ def _rod_before_nozzles(case: Case, rod: Deflector) -> Iterator[Problem]:
             )
 
 
+def _facets(case: Case) -> Iterator[Problem]:
+    """DEM's facets are larger than what a shot touches, and small enough to go round a hole."""
+    shot, given, hole = _largest(case), case.accuracy.facet_size, case.target.geometry
+    size, key = facet_size(case, shot), ("accuracy", "facet_size")
+    if not case.nozzle or size is None:
+        return
+    if given is not None and given < CONTACT * shot:
+        yield Problem(
+            key,
+            f"{_mm(given)} is less than a shot of {_mm(shot)} touches at once: give its diameter, at least "
+            f"{_mm(CONTACT * shot)}",
+        )
+    if not isinstance(hole, BoltHoleGeometry) or shot >= hole.diameter:
+        return
+    largest = math.pi * hole.diameter / LEAST_AROUND
+    if size > largest and given is not None:
+        yield Problem(
+            key, f"{_mm(given)} is too long: {LEAST_AROUND} facets go around the hole, of at most {_mm(largest)}"
+        )
+    elif size > largest or hole.length < shot:
+        yield Problem(
+            ("target", "geometry"),
+            f"a hole of {_mm(hole.diameter)} × {_mm(hole.length)} is too small for shots of {_mm(shot)}: DEM needs "
+            f"{LEAST_AROUND} facets around it, {FACET_SIZES[hole.kind]:g} times as long as the shot's diameter. Take a "
+            "larger hole or smaller shots",
+        )
+
+
 def _shots_thrown(case: Case) -> float:
     thrown = shots.thrown(case.shot, case.shot.size_spread)
     duration = case.exposure.duration if case.exposure else 0.0
@@ -197,7 +227,7 @@ def _number_of_shots(case: Case) -> Iterator[Problem]:
     if not case.nozzle or case.exposure is None:
         return
     count, path = _shots_thrown(case), ("exposure", "duration")
-    if count < 1:
+    if count < 1 - 1e-9:  # units leave 25 us at 40000 1/s a rounding error below one shot
         yield Problem(
             path, f"rate × duration is {count:.3g} shots: shoot longer or at a higher rate, so that there is one"
         )
@@ -213,6 +243,7 @@ RULES: tuple[Callable[[Case], Iterator[Problem]], ...] = (
     _far_field,
     _nozzles,
     _deflector,
+    _facets,
     _number_of_shots,
     *cad_rules.RULES,
 )

@@ -1,5 +1,6 @@
 """What an engine is given (`Stream`) and what it gives back (`Contacts`, one a shard)."""
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -97,13 +98,14 @@ class Stream:
     gravity: Annotated[bool, of("1", "`STANDARD_GRAVITY` acts along −z")]
     duration: Annotated[float, of("s", "of shooting; `FLUSH` follows")]
     seed: Annotated[int, of("1", "of the random numbers")]
-    time_step_share: Annotated[float, of("1", "time step over the Rayleigh step")]
+    time_step_share: Annotated[float, of("1", "time step over the smallest shot's Rayleigh step")]
     interval: Annotated[int, of("1", "time steps between contact rows")]
 
     @property
     def time_step(self) -> float:
-        """[s]."""
-        return self.time_step_share * rayleigh_step(self.shot)
+        """Of the smallest shot, whose Rayleigh step is the shortest [s]."""
+        smallest = dataclasses.replace(self.shot, diameter=float(self.diameters[0]))
+        return self.time_step_share * rayleigh_step(smallest)
 
 
 class Engine(Protocol):

@@ -3,8 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from peenflow.case.model import Case
 from peenflow.dent import Dent
+from peenflow.geometry.plane import Plane
 from peenflow.records.material import Material
 from peenflow.scene import ShotProperties, Thrown
 
@@ -23,6 +26,7 @@ class Situation:
     flight: float | None  # m, from the nozzle to what the shots meet first; None: nothing flies
     normal_speed: float  # m/s, of the fastest first hits on the target
     slant: float  # tangential over normal speed of the hits, the most oblique ones'
+    met: Callable[[np.ndarray, np.ndarray], Plane | None]  # what a flight from a point (3,) along a way (3,) meets
     repeats: float  # share of the dented area that was dented before
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from peenflow.case.accuracy import MARGIN
 from peenflow.case.impacts_csv import ImpactTable, read_impacts
+from peenflow.case.model import PressureShape
 from peenflow.case.patch_centre import stated_centre
 from peenflow.errors import RunError
 from peenflow.geometry import Surface
@@ -16,7 +17,7 @@ from peenflow.loads.deck import far_field, rollers
 from peenflow.loads.groups import groups
 from peenflow.loads.impacts import Rules, from_contacts, from_table
 from peenflow.loads.placement import Room, densest, on_patch
-from peenflow.loads.pressure import pressure_loads
+from peenflow.loads.pressure import SHAPES, pressure_loads
 from peenflow.loads.spheres import spheres
 from peenflow.progress import Progress
 from peenflow.records import hdf5
@@ -57,6 +58,7 @@ class Inputs:
     min_normal_speed: float
     group_distance: float | None
     load: Literal["impact", "pressure"]
+    pressure_shape: PressureShape
     calibration: Calibration | None  # for pressure loads only
     sides: Literal["symmetric", "free"]
     boundary: Literal["far-field", "fixed"]
@@ -97,6 +99,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
         min_normal_speed=knobs.min_normal_speed,
         group_distance=knobs.group_distance,
         load=knobs.load,
+        pressure_shape=knobs.pressure_shape,
         calibration=upstream.calibration if knobs.load == "pressure" else None,
         sides=knobs.sides,
         boundary=knobs.boundary,
@@ -190,7 +193,7 @@ def _deck(inputs: Inputs, impacts: Impacts, placement: Placement) -> Deck:
     if inputs.load == "pressure":
         if inputs.calibration is None:
             raise RunError('[accuracy] load = "pressure" needs the calibration. Run the stage `calibrate` first.')
-        pressures = pressure_loads(impacts, placement, inputs.patch, inputs.calibration)
+        pressures = pressure_loads(impacts, placement, inputs.patch, inputs.calibration, SHAPES[inputs.pressure_shape])
     by_sphere = inputs.load == "impact"
     return Deck(
         controls=_controls(inputs, impacts, far.distance),

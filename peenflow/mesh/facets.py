@@ -1,6 +1,7 @@
-"""The part's surface as triangles for DEM, none of their edges shorter than a shot.
+"""The part's surface as triangles for DEM.
 
-Shorter edges would let one contact spread over many facets and split its force (the method's paper, section 2.2).
+Edges shorter than a shot would let one contact spread over many facets and split its force (the method's paper,
+section 2.2); longer ones stand out of a bore's round wall (`accuracy.facet_size`).
 """
 
 import math
@@ -8,31 +9,23 @@ from types import ModuleType
 
 import numpy as np
 
-from peenflow.errors import InputError
 from peenflow.geometry.gmsh_session import gmsh_model
 from peenflow.records.target import Facets
 
-CHORD = 1.35  # shot diameters: least chord of a facet around a bore
-AXIAL_EDGE = 5.8  # shot diameters, along a bore, where chords make no error
-PLATE_EDGE = 8.0  # shot diameters, on a plane
-LEAST_AROUND = 12  # facets around a bore: coarser, and the chords stand out by more than 3 % of its radius
+ALONG = 5.8 / 1.35  # lengths of the chords, along a bore, where straight edges make no error
 _TRIANGLE = 2  # gmsh's element type
 
 
-def bore_facets(radius: float, length: float, shot_diameter: float) -> Facets:
+def bore_facets(radius: float, length: float, size: float) -> Facets:
     """Wall of the bore along z from 0 to `length` [m]; normals towards its axis.
 
-    Raises:
-        InputError: the bore is too narrow or too short for facets as large as the shot.
+    Args:
+        radius: [m].
+        length: [m].
+        size: of the arcs between the facets' corners, at least [m].
     """
-    quarter = math.floor(2 * math.pi * radius / (4 * CHORD * shot_diameter))
-    if 4 * quarter < LEAST_AROUND or length < shot_diameter:
-        raise InputError(
-            f"[target] geometry: a bolt hole of {2 * radius * 1e3:.4g} mm × {length * 1e3:.4g} mm is too small for "
-            f"shots of {shot_diameter * 1e3:.4g} mm: DEM needs {LEAST_AROUND} facets around it with edges no shorter "
-            "than the shot's diameter. Take a larger hole or smaller shots."
-        )
-    along = max(1, math.floor(length / (AXIAL_EDGE * shot_diameter)))
+    quarter = max(1, math.floor(2 * math.pi * radius / (4 * size)))
+    along = max(1, math.floor(length / (ALONG * size)))
     with gmsh_model("bore") as gmsh:
         geo = gmsh.model.geo
         axis = geo.addPoint(0, 0, 0)
@@ -44,21 +37,24 @@ def bore_facets(radius: float, length: float, shot_diameter: float) -> Facets:
         triangles = _mesh_surfaces(gmsh)
     centre = triangles.mean(axis=1)
     inwards = np.stack([-centre[:, 0], -centre[:, 1], np.zeros(len(centre))], axis=-1)
-    return _checked(triangles, inwards, shot_diameter)
+    return _turned(triangles, inwards)
 
 
-def plate_facets(low: np.ndarray, high: np.ndarray, shot_diameter: float) -> Facets:
-    """Rectangle of the plane z = 0 between corners `low` and `high` (2,) [m]; normals +z."""
-    size = high - low
+def plate_facets(low: np.ndarray, high: np.ndarray, size: float) -> Facets:
+    """Rectangle of the plane z = 0 between corners `low` and `high` (2,) [m]; normals +z, edges of at least `size` [m].
+
+    A rectangle that is narrower than `size` has edges as long as it is wide.
+    """
+    sides = high - low
     with gmsh_model("plate") as gmsh:
         geo = gmsh.model.geo
         corner, across = geo.addPoint(low[0], low[1], 0), geo.addPoint(low[0], high[1], 0)
         edge = geo.addLine(corner, across)
-        count = [max(1, math.floor(side / (PLATE_EDGE * shot_diameter))) for side in size]
+        count = [max(1, math.floor(side / size)) for side in sides]
         geo.mesh.setTransfiniteCurve(edge, count[1] + 1)
-        geo.extrude([(1, edge)], size[0], 0, 0, numElements=[count[0]])
+        geo.extrude([(1, edge)], sides[0], 0, 0, numElements=[count[0]])
         triangles = _mesh_surfaces(gmsh)
-    return _checked(triangles, np.array([0.0, 0.0, 1.0]), shot_diameter)
+    return _turned(triangles, np.array([0.0, 0.0, 1.0]))
 
 
 def _mesh_surfaces(gmsh: ModuleType) -> np.ndarray:
@@ -73,19 +69,8 @@ def _mesh_surfaces(gmsh: ModuleType) -> np.ndarray:
     return triangles
 
 
-def _checked(triangles: np.ndarray, outwards: np.ndarray, shot_diameter: float) -> Facets:
-    """Turn the triangles' normals `outwards` (3,) or (t, 3), out of the metal.
-
-    Raises:
-        InputError: an edge is shorter than the shot.
-    """
+def _turned(triangles: np.ndarray, outwards: np.ndarray) -> Facets:
+    """The triangles with their normals `outwards` (3,) or (t, 3), out of the metal."""
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     wrong = np.sum(normals * outwards, axis=1) < 0
-    triangles = np.where(wrong[:, None, None], triangles[:, ::-1], triangles)
-    shortest = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).min()
-    if shortest < shot_diameter:
-        raise InputError(
-            f"[target] geometry: the facets for DEM would have edges of {shortest * 1e3:.4g} mm, shorter than the "
-            f"shot's diameter of {shot_diameter * 1e3:.4g} mm. Take smaller shots or a larger part."
-        )
-    return Facets(triangles)
+    return Facets(np.where(wrong[:, None, None], triangles[:, ::-1], triangles))

@@ -36,8 +36,7 @@ class Inputs:
     mesh_size: float
     fine_depth: float
     fine_half: tuple[float, float] | None  # fine zone |x|, |y|; None: the whole patch
-    shot_diameter: float
-    dem: bool  # facets are due
+    facet_size: float | None  # of the edges; None: nothing is thrown, no facets are due
     thrown_at: tuple[float, float, float, float] | None  # part of a plate under nozzles: x_min, y_min, x_max, y_max
 
 
@@ -60,8 +59,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
         mesh_size=scene.knobs.mesh_size,
         fine_depth=grid.FINE_DEPTH * scene.dent_radius,
         fine_half=_fine_half(scene, size),
-        shot_diameter=scene.shot.diameter,
-        dem=nozzles,
+        facet_size=scene.knobs.facet_size if nozzles else None,
         thrown_at=_thrown_at(scene, size) if nozzles and isinstance(surface, Plate) else None,
     )
 
@@ -70,7 +68,6 @@ def run(inputs: Inputs, workdir: Path, progress: Progress) -> Target:
     """Mesh, check, and write `target.h5` and `target.vtu`.
 
     Raises:
-        InputError: the part is too small for facets as large as the shot.
         RunError: an element is too far from a brick.
     """
     with progress.task("meshing", 3) as bar:
@@ -131,24 +128,30 @@ def _thrown_at(scene: Scene, size: tuple[float, float]) -> tuple[float, float, f
     return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
 
-def _patch(inputs: Inputs) -> Patch:
+def grid_lines(inputs: Inputs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Lines along axes 1 and 2 (i,), (j,), and thicknesses of the layers (k,) [m]."""
     h = inputs.mesh_size
     if inputs.fine_half is None:
-        lines = [grid.uniform_lines(size, h) for size in inputs.size]
+        xs, ys = (grid.uniform_lines(size, h) for size in inputs.size)
     else:
-        lines = [grid.graded_lines(s, h, f) for s, f in zip(inputs.size, inputs.fine_half, strict=True)]
-    thicknesses = layers(h, inputs.fine_depth, inputs.depth, grid.DEPTH_GROWTH)
-    return build_under(inputs.surface.sheet, lines[0], lines[1], thicknesses)
+        xs, ys = (grid.graded_lines(s, h, f) for s, f in zip(inputs.size, inputs.fine_half, strict=True))
+    return xs, ys, layers(h, inputs.fine_depth, inputs.depth, grid.DEPTH_GROWTH)
+
+
+def _patch(inputs: Inputs) -> Patch:
+    return build_under(inputs.surface.sheet, *grid_lines(inputs))
 
 
 def _facets(inputs: Inputs) -> Facets | None:
-    if isinstance(inputs.surface, BoltHole) and inputs.dem:
-        return bore_facets(inputs.surface.radius, inputs.surface.length, inputs.shot_diameter)
-    if isinstance(inputs.surface, CadSurface) and inputs.dem:
-        return Facets(inputs.surface.triangles)
-    if inputs.thrown_at is not None:
-        return plate_facets(np.array(inputs.thrown_at[:2]), np.array(inputs.thrown_at[2:]), inputs.shot_diameter)
-    return None
+    surface, size = inputs.surface, inputs.facet_size
+    if size is None:
+        return None
+    if isinstance(surface, BoltHole):
+        return bore_facets(surface.radius, surface.length, size)
+    if isinstance(surface, CadSurface):
+        return Facets(surface.triangles)
+    assert inputs.thrown_at is not None, "of a plate under nozzles"
+    return plate_facets(np.array(inputs.thrown_at[:2]), np.array(inputs.thrown_at[2:]), size)
 
 
 def _write_vtu(patch: Patch, path: Path) -> None:

@@ -5,11 +5,13 @@ Values run from coarse to fine; the last of them is the reference's, except wher
 """
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import get_args
 
 from peenflow.case.accuracy import PRESETS
-from peenflow.case.model import PlateGeometry
+from peenflow.case.model import BoltHoleGeometry, PlateGeometry, PressureShape
+from peenflow.case.placement import LEAST_AROUND
 from peenflow.dent import speed_for_depth
 from peenflow.scene import Scene
 
@@ -28,6 +30,8 @@ DEPTHS = (0.75, 1.05, 1.6, 2.1, 3.2)  # shot diameters
 GROUP_DISTANCES = (1.0, 1.5, 2.0)  # shot diameters
 DEM_TIME_STEPS = (0.3, 0.2, 0.1)
 CONTACT_INTERVALS = (4, 2, 1)
+FACET_SIZES = (3.0, 2.0, 1.5, 1.0)  # diameters of the largest shot: chords stand out less
+PRESSED = {"accuracy.load": "pressure"}
 SHALLOWEST = (0.1, 0.05, 0.02, 0.01)  # of the deepest dent: what is shallower is dropped
 
 
@@ -46,6 +50,7 @@ class Knob:
     name: str
     missing: Callable[[Scene], str | None]  # why a case has it not; None: it has
     sweep: Callable[[Scene], Sweep]
+    beside: Mapping[str, str] = field(default_factory=dict)  # settings without which its values mean nothing
 
 
 def _everywhere(scene: Scene) -> str | None:
@@ -59,6 +64,12 @@ def _patch_only(scene: Scene) -> str | None:
 
 def _nozzles_only(scene: Scene) -> str | None:
     return None if scene.case.nozzle else "no stream is computed"
+
+
+def _facets_missing(scene: Scene) -> str | None:
+    if isinstance(scene.case.target.geometry, PlateGeometry):
+        return "facets of any size follow a plane"
+    return _nozzles_only(scene)
 
 
 def _groups_only(scene: Scene) -> str | None:
@@ -118,6 +129,14 @@ def _falling(values: Sequence[float], base: float, written: str = "{:g}") -> Swe
     return Sweep(texts, texts[-1] if values[-1] < base else None)
 
 
+def _facet_size(scene: Scene) -> Sweep:
+    """Where chords err: no longer than a case may have them, and not below the shot's diameter."""
+    hole, shot = scene.case.target.geometry, scene.shot.diameter
+    most = math.pi * hole.diameter / LEAST_AROUND if isinstance(hole, BoltHoleGeometry) else math.inf
+    sizes = [share * shot for share in FACET_SIZES if share * shot < most]
+    return _falling([size * 1e3 for size in sizes], (scene.knobs.facet_size or most) * 1e3, "{:.4g} mm")
+
+
 def _group_distance(scene: Scene) -> Sweep:
     texts = tuple(f"{value:g}" for value in GROUP_DISTANCES)
     return Sweep(texts, texts[-1] if (scene.knobs.group_distance or 0.0) < GROUP_DISTANCES[-1] else None)
@@ -155,11 +174,13 @@ KNOBS: tuple[Knob, ...] = (
     Knob("boundary", _boundary_missing, _words("fixed", "far-field", reference="far-field")),
     Knob("depth", _depth_missing, _depth),
     Knob("load", _patch_only, _words("pressure", "impact", reference="impact")),
+    Knob("pressure_shape", _patch_only, _words(*get_args(PressureShape)), PRESSED),
     Knob("group_distance", _groups_only, _group_distance),
     Knob("active_radius", _patch_only, _words("1", "1.5", "2", "3", "off", reference="off")),
     Knob("min_normal_speed", _patch_only, _min_normal_speed),
     Knob("dem_time_step", _nozzles_only, lambda scene: _falling(DEM_TIME_STEPS, scene.knobs.dem_time_step)),
     Knob("contact_interval", _nozzles_only, lambda scene: _falling(CONTACT_INTERVALS, scene.knobs.contact_interval)),
+    Knob("facet_size", _facets_missing, _facet_size),
     Knob("sides", _sides, _words("symmetric", "free")),
     Knob("preset", _everywhere, _words(*PRESETS)),
 )

@@ -31,7 +31,7 @@ def names() -> list[str]:
 def plan(scene: Scene, resolver: Resolver, wanted: Sequence[str] | None) -> Plan:
     """The points of a study of `scene`.
 
-    A value that the base has is no point of its own; one that changes nothing else is not run twice.
+    A value that the base has is no point of its own; what two knobs come to alike is run once.
 
     Args:
         scene: of the case as it stands, the base.
@@ -53,10 +53,11 @@ def plan(scene: Scene, resolver: Resolver, wanted: Sequence[str] | None) -> Plan
             left_out[knob.name] = why
             continue
         asked = wanted is None or knob.name in wanted
-        points += _of_knob(knob, scene, resolver) if asked else ()
+        points += _of_knob(knob, scene) if asked else ()
         reference = knob.sweep(scene).reference
         if reference is not None:
             finest[f"accuracy.{knob.name}"] = reference
+    points = _different(points, scene, resolver)
     for unsure in UNSURE:
         why = unsure.missing(scene)
         if why is not None:
@@ -70,7 +71,17 @@ def plan(scene: Scene, resolver: Resolver, wanted: Sequence[str] | None) -> Plan
     return Plan(Point("base", "", {}, "base"), Point("reference", "", finest, "reference"), tuple(points), left_out)
 
 
-def _of_knob(knob: Knob, scene: Scene, resolver: Resolver) -> list[Point]:
+def _of_knob(knob: Knob, scene: Scene) -> list[Point]:
     key = f"accuracy.{knob.name}"
-    points = [Point(knob.name, value, {key: value}, "knob") for value in knob.sweep(scene).values]
-    return [point for point in points if resolver(point.settings).knobs != scene.knobs]
+    return [Point(knob.name, value, {**knob.beside, key: value}, "knob") for value in knob.sweep(scene).values]
+
+
+def _different(points: Sequence[Point], scene: Scene, resolver: Resolver) -> list[Point]:
+    """Those that differ from the base and from those before them."""
+    known, found = [scene.knobs], []
+    for point in points:
+        knobs = resolver(point.settings).knobs
+        if knobs not in known:
+            known.append(knobs)
+            found.append(point)
+    return found

@@ -8,6 +8,7 @@ from peenflow.scene import Scene
 
 PER_DENT = "elements_per_dent"  # stands for mesh_size
 PER_DIAMETER = "depth_per_diameter"  # stands for depth
+FACETS = "facet_size_per_diameter"  # stands for facet_size
 
 
 def relative(accuracy: Mapping[str, Any], scene: Scene) -> dict[str, Any]:
@@ -17,6 +18,8 @@ def relative(accuracy: Mapping[str, Any], scene: Scene) -> dict[str, Any]:
         found[PER_DENT] = round(scene.dent_radius / units.to_si(found.pop("mesh_size"), "m"), 4)
     if "depth" in found:
         found[PER_DIAMETER] = round(units.to_si(found.pop("depth"), "m") / scene.shot.diameter, 4)
+    if "facet_size" in found:
+        found[FACETS] = round(units.to_si(found.pop("facet_size"), "m") / scene.shot.diameter, 4)
     return found
 
 
@@ -27,4 +30,6 @@ def absolute(ratios: Mapping[str, Any], scene: Scene) -> dict[str, Any]:
         found["mesh_size"] = f"{scene.dent_radius / found.pop(PER_DENT) * 1e3:.3g} mm"
     if PER_DIAMETER in found:
         found["depth"] = f"{found.pop(PER_DIAMETER) * scene.shot.diameter * 1e3:.3g} mm"
+    if FACETS in found:
+        found["facet_size"] = f"{found.pop(FACETS) * scene.shot.diameter * 1e3:.4g} mm"
     return found

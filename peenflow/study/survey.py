@@ -24,7 +24,7 @@ from peenflow.study.rows import Row, of_kind, row
 from peenflow.study.workshop import Workshop, work
 
 POINTS = "points"
-UNITS = {"mesh_size": "m", "calibration_mesh_size": "m", "depth": "m", "min_normal_speed": "m/s"}
+UNITS = {"mesh_size": "m", "calibration_mesh_size": "m", "depth": "m", "facet_size": "m", "min_normal_speed": "m/s"}
 
 
 @dataclass(frozen=True)

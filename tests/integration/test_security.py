@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+import parts
 import pytest
 from command_line import ROOT, command, one_paragraph, peenflow
 
@@ -259,6 +260,47 @@ def test_a_table_outside_the_case_is_not_read(tmp_path: Path, name: str):
     assert ended.returncode == 2
     assert "leads out of the case directory" in ended.stderr
     assert one_paragraph(ended.stderr)
+
+
+def with_cad(directory: Path, name: str) -> Path:
+    case = case_in(directory)
+    file = case / "case.toml"
+    text = file.read_text().replace(
+        'kind = "plate", thickness = "5 mm"', f'kind = "step", file = "{name}", faces = [1]'
+    )
+    file.write_text(text.replace('width = "0.5 mm"', 'width = "0.5 mm", at = ["0 mm", "5 mm", "5 mm"]'))
+    (case / "shots.csv").write_text(TABLE.replace("0,0,0,0,0,0,-30", "0,0,5e-3,5e-3,30,0,0"))
+    return case
+
+
+@pytest.mark.parametrize(
+    ("asked", "name"),
+    [
+        ("check", "../part.step"),
+        ("run", "../part.step"),
+        ("check", "/etc/passwd"),
+        ("check", "link.step"),
+        ("check", "folder/../../part.step"),
+    ],
+)
+def test_a_cad_file_outside_the_case_is_not_read(tmp_path: Path, asked: str, name: str):
+    case = with_cad(tmp_path / "case", name)
+    parts.block(tmp_path / "part.step")
+    (case / "folder").mkdir()
+    (case / "link.step").symlink_to("../part.step")
+    ended = peenflow(asked, case)
+    assert ended.returncode == 2
+    assert one_paragraph(ended.stderr), ended.stderr
+    assert "target.geometry.file" in ended.stderr
+    assert "leads out of the case directory" in ended.stderr
+    assert not (case / "results").exists()
+
+
+def test_the_same_cad_file_in_the_case_is_read(tmp_path: Path):
+    case = with_cad(tmp_path / "case", "part.step")
+    parts.block(case / "part.step")
+    ended = peenflow("check", case)
+    assert ended.returncode == 0, ended.stderr
 
 
 def test_init_does_not_copy_what_links_lead_to(tmp_path: Path):

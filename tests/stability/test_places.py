@@ -1,6 +1,7 @@
 """Where the hit falls: nodes, symmetry planes, edges, the patch's rim.
 
-62.5 m/s at right angles. What symmetry planes leave out must not change the answer.
+62.5 m/s at right angles. What symmetry planes leave out must not change the answer. Beside a free edge stress falls to
+zero within a third of the dent's radius, so that this scene has more elements in it than the others.
 """
 
 import pytest
@@ -11,8 +12,6 @@ from hard_scenes.run import run
 BANDS = {
     # no node lies at the bottom of the dent, but half an element beside it
     "between four nodes": {"dent's depth [µm]": 0.08},
-    # within a few elements stress falls to zero at the free face
-    "0.1 r from a free edge": {"least residual stress [MPa]": 0.35},
 }
 
 QUICK = {"on a node, a quarter meshed", "0.1 r from a free edge", "on the patch's rim", "0.1 r from a symmetry plane"}

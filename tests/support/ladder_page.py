@@ -66,6 +66,7 @@ PAGES = {
             "test_materials",
             "test_meshes",
             "test_steps",
+            "test_refinement",
             "test_dem_steps",
             "test_streams",
             "test_limits",

@@ -44,6 +44,24 @@ def test_rate_hardening_makes_the_dent_smaller() -> None:
     assert predict(62.5, SHOT, dataclasses.replace(INCONEL, rate=None)).radius > predict(62.5, SHOT, INCONEL).radius
 
 
+def test_a_hot_part_is_as_soft_as_johnson_and_cook_say() -> None:
+    """Its yield and hardening by 1 − ((T−T0)/(Tm−T0))^m, nothing else: below T0 it is as at T0."""
+    assert INCONEL.thermal is not None
+    room, melt = INCONEL.thermal.room, INCONEL.thermal.melt
+    hot, cold = (
+        dataclasses.replace(INCONEL, thermal=dataclasses.replace(INCONEL.thermal, initial=t))
+        for t in ((room + melt) / 2, room - 100)
+    )
+    left = 1 - 0.5**INCONEL.thermal.m
+    softer = dataclasses.replace(INCONEL, A=left * INCONEL.A, B=left * INCONEL.B)
+    found, expected = (dataclasses.astuple(predict(62.5, SHOT, material)) for material in (hot, softer))
+    assert found == pytest.approx(expected, rel=1e-9)
+    assert predict(62.5, SHOT, hot).radius > 1.1 * predict(62.5, SHOT, INCONEL).radius
+    assert predict(62.5, SHOT, cold) == predict(62.5, SHOT, INCONEL)
+    unaware = dataclasses.replace(hot, thermal=None)  # the effect switched off
+    assert predict(62.5, SHOT, unaware) == predict(62.5, SHOT, INCONEL)
+
+
 def test_the_speed_of_a_shallow_dent() -> None:
     speed = speed_for_depth(0.02, 62.5, SHOT, INCONEL)
     assert predict(speed, SHOT, INCONEL).depth == pytest.approx(0.02 * predict(62.5, SHOT, INCONEL).depth, rel=1e-6)

@@ -5,8 +5,8 @@ import pytest
 
 from peenflow.case.model import FilletGeometry, Nozzle
 from peenflow.errors import InputError
-from peenflow.geometry import CadSurface, Chart
-from peenflow.surfaces import in_fillet, jet
+from peenflow.geometry import BoltHole, CadSurface, Chart, Plate
+from peenflow.surfaces import in_fillet, jet, met
 
 NODES = np.zeros((3, 3, 3))
 SQUARE = np.array([[[-1, -1, 0], [1, -1, 0], [1, 1, 0]], [[-1, -1, 0], [1, 1, 0], [-1, 1, 0.0]]]) * 10e-3
@@ -37,6 +37,43 @@ def test_a_jet_that_misses_or_comes_out_of_the_metal_is_wrong_input():
         jet(FLOOR, 2, nozzle(["30 mm", "0 mm", "4 mm"], [0, 0, -1]))
     with pytest.raises(InputError, match="from inside the metal"):
         jet(FLOOR, 0, nozzle(["3 mm", "0 mm", "-4 mm"], [0, 0, 1]))
+
+
+def test_a_flight_meets_a_plate_from_above_only():
+    found = met(Plate(5e-3), np.array([1e-3, 0, 4e-3]), np.array([3.0, 0, -4]))
+    assert found.point == pytest.approx([4e-3, 0, 0])
+    assert found.normal == pytest.approx([0, 0, 1])
+    assert found.height(np.array([[7.0, 8, 9]])) == pytest.approx([9.0])
+    assert met(Plate(5e-3), np.array([1e-3, 0, 4e-3]), np.array([3.0, 0, 4])) is None
+    assert met(None, np.zeros(3), np.array([0, 0, -1.0])) is None
+
+
+@pytest.mark.parametrize(
+    ("start", "way", "point"),
+    [
+        ([0, 0, 10], [1, 0, -1], [3, 0, 7]),
+        ([0, 0, 22], [1, 0, -1], [3, 0, 19]),  # from above the mouth
+        ([0, -4, 10], [0, 1, 0], [0, 3, 10]),  # what is outside comes through a mouth: it meets the far wall
+        ([0, 0, 10], [0, 0, -1], None),
+        ([0, 0, 2], [1, 0, -1], None),  # out of the lower mouth
+        ([9, 0, 10], [0, 1, 0], None),
+    ],
+)
+def test_where_a_flight_meets_a_bore(start, way, point):
+    found = met(BoltHole(3.0, 20.0), np.array(start, float), np.array(way, float))
+    if point is None:
+        assert found is None
+        return
+    assert found.point == pytest.approx(point)
+    assert found.normal == pytest.approx([-point[0] / 3, -point[1] / 3, 0])
+
+
+def test_a_flight_meets_the_first_of_the_facets_from_outside():
+    found = met(FLOOR, np.array([3e-3, 0, 4e-3]), np.array([-0.6, 0, -0.8]))
+    assert found.point == pytest.approx([0, 0, 0], abs=1e-12)
+    assert found.normal == pytest.approx([0, 0, 1])
+    assert met(FLOOR, np.array([3e-3, 0, -4e-3]), np.array([0, 0, 1.0])) is None
+    assert met(FLOOR, np.array([30e-3, 0, 4e-3]), np.array([0, 0, -1.0])) is None
 
 
 def test_places_in_a_fillet():

@@ -15,6 +15,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import bolt_hole
+import coefficient_of_restitution
+import contact
+import curves
+import equation_1
+import far_field
+import fillet
+import footprints
+import pairs
+import resources
+import translation
 from parts import ROOT, Bench, Part, store
 
 import peenflow
@@ -24,7 +35,19 @@ PAGE = ROOT / "docs" / "reproduction.md"
 PICTURES = ROOT / "docs" / "pictures" / "reproduction"
 PARTS: dict[str, Part] = {
     module.__name__: module.PART
-    for module in ()  # in the paper's order
+    for module in (
+        curves,
+        contact,
+        equation_1,
+        footprints,
+        far_field,
+        coefficient_of_restitution,
+        translation,
+        bolt_hole,
+        pairs,
+        fillet,
+        resources,
+    )  # in the paper's order
 }
 HEAD = """# The paper, table by table and figure by figure
 
@@ -94,6 +117,8 @@ def cells(row: dict[str, Any]) -> list[str]:
 
 def number(value: float | str) -> str:
     """As a person writes it."""
+    if isinstance(value, int):
+        return f"{value:,}"
     return value if isinstance(value, str) else f"{value:.4g}"
 
 

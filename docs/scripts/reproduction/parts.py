@@ -13,6 +13,9 @@ from typing import Any
 
 import tomli_w
 
+from peenflow.records.deck import Deck
+from peenflow.records.deck_files import save_deck
+
 ROOT = Path(__file__).parents[3]
 
 
@@ -78,10 +81,18 @@ class Bench:
 
     def run(self, case: Path, name: str, *settings: str, until: str | None = None) -> Path:
         """Results of `peenflow run CASE --set …`, a process of its own; `case` may be a folder of cases."""
+        words = ["run", str(case), *(("--until", until) if until else ())]
+        return self._peenflow(name, *words, *(word for setting in settings for word in ("--set", setting)))
+
+    def solve(self, deck: Deck, name: str) -> Path:
+        """Results of `peenflow solve` of a deck that no case makes."""
+        folder = self.work / "decks" / name
+        save_deck(deck, folder)
+        return self._peenflow(name, "solve", str(folder))
+
+    def _peenflow(self, name: str, *words: str) -> Path:
         out = self.work / "results" / name
-        command = [sys.executable, "-P", "-m", "peenflow", "run", str(case), "--out", str(out)]
-        command += ["--until", until] if until else []
-        command += [word for setting in settings for word in ("--set", setting)]
+        command = [sys.executable, "-P", "-m", "peenflow", *words, "--out", str(out)]
         began = time.monotonic()
         done = subprocess.run(
             command, cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, text=True

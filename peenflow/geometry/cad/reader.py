@@ -1,6 +1,7 @@
 """The process that reads CAD: `python -m peenflow.geometry.cad.reader QUESTION ANSWER`. Lengths in mm inside."""
 
 import json
+import resource
 import sys
 from pathlib import Path
 from typing import Any
@@ -15,15 +16,20 @@ from peenflow.geometry.cad.solid import blade_root, read_step
 from peenflow.geometry.gmsh_session import gmsh_model
 
 MM = 1e3  # in a metre
+MEMORY = 2**32  # B of this process, so that no file takes the machine's: good ones need a tenth of it
 
 
 def main(question: Path, answer: Path) -> int:
-    """Answer the question; 2, and the reason on standard output, where the part is at fault."""
+    """Answer the question; 2, and the reason for an answer, where the part is at fault.
+
+    OpenCASCADE writes to standard output, in colours.
+    """
     asked = json.loads(question.read_text())
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     try:
         found = read(asked["part"], asked["wish"])
     except InputError as error:
-        print(error)
+        answer.write_text(str(error))
         return error.exit_status
     np.savez(answer, **found)
     return 0
@@ -45,7 +51,7 @@ def read(part: dict[str, Any], wish: dict[str, Any]) -> dict[str, Any]:
         half = tuple(value * MM / 2 for value in wish["size"])
         reach = Reach((half[0], half[1]), wish["depth"] * MM, wish["shot"] * MM / 2)
         chart = march(faces, np.array(wish["at"]) * MM, reach)
-        triangles = facets(gmsh, faces, wish["shot"] * MM, wish["thrown"])
+        triangles = facets(gmsh, faces, wish["facet_size"] * MM, wish["shot"] * MM, wish["thrown"])
     return {
         "low": np.array(chart.low) / MM,
         "spacing": np.array(chart.spacing) / MM,

@@ -3,6 +3,8 @@
 import dataclasses
 import hashlib
 import json
+import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,6 +19,8 @@ from peenflow.geometry.cad_surface import CadSurface
 from peenflow.geometry.chart import Chart
 
 TIME_LIMIT = 120  # s
+LARGEST = 2**28  # B of a STEP file: a part of some 100,000 faces
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # more take room by the gigabyte on large machines
 STEP_HEADER = b"ISO-10303-21"
 
 
@@ -49,8 +53,9 @@ class Wish:
     at: tuple[float, float, float]  # near the patch's centre, in the part's frame
     size: tuple[float, float]  # of the patch along axes 1 and 2
     depth: float  # of the patch
-    shot: float  # diameter: facets have no edge shorter, hollows must take it
-    thrown: bool  # DEM throws shots at the facets, so that they must be as large as the shots
+    shot: float  # diameter, which hollows must take
+    facet_size: float  # of the facets' edges
+    thrown: bool  # DEM throws shots at the facets
 
 
 def survey(part: StepFile | BladeRoot, wish: Wish) -> CadSurface:
@@ -80,9 +85,9 @@ def _survey(part: StepFile | BladeRoot, wish: Wish, content: str) -> CadSurface:
 def _digest(path: Path) -> str:
     try:
         with open(path, "rb") as handle:
-            head = handle.read(1024)
+            head, size = handle.read(1024), os.fstat(handle.fileno()).st_size
             handle.seek(0)
-            digest = hashlib.file_digest(handle, "sha256").hexdigest()
+            digest = hashlib.file_digest(handle, "sha256").hexdigest() if size <= LARGEST else ""
     except OSError as error:
         raise InputError(
             f"The STEP file {path} cannot be read: {error.strerror}. Correct target.geometry.file in case.toml."
@@ -90,24 +95,36 @@ def _digest(path: Path) -> str:
     if STEP_HEADER not in head:
         fault = "is empty" if not head else f"does not begin with {STEP_HEADER.decode()}, as STEP files do"
         raise InputError(f"The STEP file {path} {fault}. Export the part again, as STEP AP203, AP214 or AP242.")
+    if size > LARGEST:
+        raise InputError(
+            f"The STEP file {path} has {size / 2**20:.0f} MiB, and no more than {LARGEST / 2**20:.0f} are read. Leave "
+            "what is not peened out of it, and export the part again."
+        )
     return digest
 
 
 def _ask(part: StepFile | BladeRoot, question: Path, answer: Path) -> None:
     named = f"the STEP file {part.path}" if isinstance(part, StepFile) else "the blade root"
     command = [sys.executable, "-P", "-m", "peenflow.geometry.cad.reader", str(question), str(answer)]
+    env = os.environ | ONE_THREAD
     try:
-        child = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
+        child = subprocess.run(
+            command, capture_output=True, text=True, errors="replace", timeout=TIME_LIMIT, check=False, env=env
+        )
     except subprocess.TimeoutExpired as error:
         raise InputError(
             f"Reading {named} took more than {TIME_LIMIT} s. Simplify the part to what is peened, or heal it in CAD."
         ) from error
     if child.returncode == InputError.exit_status:
-        raise InputError(child.stdout.strip())
+        raise InputError(answer.read_text())
     if child.returncode:
         said = child.stderr.strip().splitlines()
         raise InputError(
-            f"The CAD library ended with status {child.returncode} on {named}"
+            f"The CAD library {_ended(child.returncode)} on {named}"
             + (f" ({said[-1]})" if said else "")
             + ". Heal the part in CAD and export it again."
         )
+
+
+def _ended(status: int) -> str:
+    return f"was killed by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"

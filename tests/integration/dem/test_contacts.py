@@ -113,7 +113,7 @@ def test_ricochets_do_not_meet_the_shots_that_wait_behind_the_nozzle(plate_strea
 
 def test_deflector_throws_the_shots_at_the_hole(plate_stream, tmp_path):
     """A short exposure: shots meet the 45° face of the rod, which moves towards them, then the wall beside it."""
-    facets = bore_facets(3.75e-3, 25e-3, 0.3556e-3).triangles
+    facets = bore_facets(3.75e-3, 25e-3, 0.48e-3).triangles
     stream = plate_stream(
         nozzles=(Nozzle((0.0, 0.0, 31e-3), (0.0, 0.0, -1.0), 2e-3, 62.5, 0.0, 40000.0, 0.0),),
         walls=Walls(facets, True, 211e9, 0.29, 0.4, None, 0.3),

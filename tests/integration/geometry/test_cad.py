@@ -57,8 +57,8 @@ def fillet_face(path):
 
 
 MIDDLE = R - R / np.sqrt(2)  # x and y of the rounded edge's middle
-ROUNDED = Wish((MIDDLE, MIDDLE, 5e-3), (2e-3, 2e-3), 0.5e-3, SHOT, thrown=True)
-BORE = Wish((3e-3, 6e-3, 5e-3), (2e-3, 2e-3), 0.5e-3, SHOT, thrown=True)
+ROUNDED = Wish((MIDDLE, MIDDLE, 5e-3), (2e-3, 2e-3), 0.5e-3, SHOT, 1.6 * SHOT, thrown=True)
+BORE = Wish((3e-3, 6e-3, 5e-3), (2e-3, 2e-3), 0.5e-3, SHOT, 1.6 * SHOT, thrown=True)
 
 
 def bulge_of(points, x, y):
@@ -119,7 +119,7 @@ def test_a_chart_goes_on_over_a_tangent_seam(parts):
 def test_on_a_ball_axis_1_is_x_and_geodesics_are_great_circles(parts):
     path = parts / "ball.step"
     at = 2e-3 * np.array([0, -np.sin(0.5), np.cos(0.5)])
-    wish = Wish(tuple(at), (1e-3, 1e-3), 0.4e-3, SHOT, thrown=False)
+    wish = Wish(tuple(at), (1e-3, 1e-3), 0.4e-3, SHOT, 1.6 * SHOT, thrown=False)
     found = survey(StepFile(path, faces_of(path, "Sphere")), wish)
     assert np.allclose(found.placement(np.zeros(2)).rotation[:, 0], [1, 0, 0], atol=1e-9)
     uv = np.random.default_rng(2).uniform(-0.5e-3, 0.5e-3, (100, 2))
@@ -131,7 +131,7 @@ def test_on_a_ball_axis_1_is_x_and_geodesics_are_great_circles(parts):
 def test_a_blade_root_has_its_fillets_where_they_belong():
     root = BladeRoot(radius=R, thickness=2e-3, height=9e-3, length=12e-3, platform=20e-3)
     across, up = 1e-3 + R - R / np.sqrt(2), R - R / np.sqrt(2)
-    found = survey(root, Wish((6e-3, across, up), (2e-3, 2e-3), 0.5e-3, SHOT, thrown=True))
+    found = survey(root, Wish((6e-3, across, up), (2e-3, 2e-3), 0.5e-3, SHOT, 1.6 * SHOT, thrown=True))
     axes = np.array([[1, 0, 0], [0, np.sqrt(0.5), -np.sqrt(0.5)], [0, np.sqrt(0.5), np.sqrt(0.5)]])
     assert np.allclose(found.placement(np.zeros(2)).rotation.T, axes, atol=1e-9)
     corners = found.triangles.reshape(-1, 3)
@@ -162,7 +162,7 @@ def test_a_bad_file_is_wrong_input(parts, name, faces, message):
         ({"at": (5e-3, -2e-3, 5e-3)}, r"lies .* mm off the faces"),
         ({"size": (2e-3, 9e-3)}, r"reaches beyond the smooth part .* mm would fit"),
         ({"depth": 2.9e-3}, r"rounded with 3 mm, too tight for layers down to 2\.9 mm"),
-        ({"shot": 8e-3}, "facets"),
+        ({"shot": 8e-3, "facet_size": 12.8e-3}, "facets"),
     ],
 )
 def test_what_the_faces_cannot_bear_is_wrong_input(parts, changes, message):

@@ -24,8 +24,7 @@ HOLE = stage.Inputs(
     mesh_size=0.05e-3,
     fine_depth=0.15e-3,
     fine_half=None,
-    shot_diameter=0.3556e-3,
-    dem=True,
+    facet_size=0.48e-3,
     thrown_at=None,
 )
 PLATE = dataclasses.replace(HOLE, surface=Plate(5e-3), fine_half=(0.2e-3, 0.1e-3), thrown_at=(-3e-3, -3e-3, 3e-3, 3e-3))
@@ -58,7 +57,7 @@ def test_vtu_holds_the_elements_and_the_sets(tmp_path):
 
 
 def test_given_impacts_need_no_facets(tmp_path):
-    inputs = dataclasses.replace(PLATE, dem=False, thrown_at=None)
+    inputs = dataclasses.replace(PLATE, facet_size=None, thrown_at=None)
     assert stage.run(inputs, tmp_path, Silent()).facets is None
 
 
@@ -92,7 +91,7 @@ def test_quality_of_a_brick_and_of_a_sheared_one():
 def test_elements_far_from_bricks_fail_with_advice(tmp_path):
     # two elements that span a whole bore: their sides meet at the angle π
     coarse = dataclasses.replace(
-        HOLE, surface=BoltHole(0.1e-3, 1e-3), size=(0.1e-3, 0.6e-3), mesh_size=0.3e-3, depth=0.3e-3, dem=False
+        HOLE, surface=BoltHole(0.1e-3, 1e-3), size=(0.1e-3, 0.6e-3), mesh_size=0.3e-3, depth=0.3e-3, facet_size=None
     )
     with pytest.raises(RunError, match="scaled Jacobian"):
         stage.run(coarse, tmp_path, Silent())

@@ -20,7 +20,9 @@ BANDS = {
     "least residual stress [MPa]": 0.1,
     "speed along the surface, out over in": 0.02,
 }
-RESTITUTION = 0.02  # absolute: it tends to 0 where all is plastic
+# Absolute: it tends to 0 where all is plastic. Its error is of first order in the elements' size (on three meshes each,
+# 1.3 beside a free edge and 1.1 at 5°): with fewer than `FEW` elements in a dent's radius it may be larger.
+RESTITUTION, OF_FEW, FEW = 0.0125, 0.016, 3.0
 UNIQUE = 1e-9  # m: nodes of the mirrored mesh nearer than this are the same
 
 
@@ -31,19 +33,22 @@ def some(group, quick):
     return [pytest.param(name, marks=() if name in quick else pytest.mark.long) for name in names]
 
 
-def held(rung, group, name, bands=None, hourglass=HOURGLASS) -> Outcome:
-    """Run a scene and record all that must hold; `bands` (by figure, relative) replace those of `BANDS`."""
+def held(rung, group, name, bands=None, shown=()) -> Outcome:
+    """Run a scene and record all that must hold.
+
+    Relative `bands` by figure replace those of `BANDS`; figures in `shown` are known limits, held to nothing.
+    """
     scene = catalogue.GROUPS[group][name]
     found = run(scene)
-    sound(rung, name, found, scene.precision, hourglass)
+    sound(rung, name, found, scene.precision)
     if scene.mirrors:
         apart = max(asymmetry(found, mirror) for mirror in scene.mirrors)
         rung.below("asymmetry", apart, SYMMETRY)
-    against_finer(rung, group, name, found, bands or {})
+    against_finer(rung, group, name, found, bands or {}, shown)
     return found
 
 
-def sound(rung, name, found: Outcome, precision="float64", hourglass=HOURGLASS):
+def sound(rung, name, found: Outcome, precision="float64"):
     """Finite, not inverted, balanced in energy and momentum."""
     state, limit = found.solver.state, MOMENTUM[precision]
     rung.title = name
@@ -53,7 +58,7 @@ def sound(rung, name, found: Outcome, precision="float64", hourglass=HOURGLASS):
     rung.between("least volume over its first", found.least_volume, 0.5, 2.0)
     rung.between("least scaled Jacobian", found.least_jacobian, 1e-3, 1.0)
     rung.below("energy error", state.ledger.error, ENERGY)
-    rung.below("hourglass over internal energy", state.hourglass_ratio, hourglass)
+    rung.below("hourglass over internal energy", state.hourglass_ratio, HOURGLASS)
     rung.below("momentum not balanced", found.momentum, limit)
 
 
@@ -67,14 +72,23 @@ def finer_figures(group, name):
     return recorded(group, name)["figures"]
 
 
-def against_finer(rung, group, name, found: Outcome, bands):
+def against_finer(rung, group, name, found: Outcome, bands, shown):
     """Figures beside those of the finer mesh, and the profile for the picture."""
     record = recorded(group, name)
     for figure, expected in record["figures"].items():
-        rel = (BANDS | bands)[figure]
-        rung.near(figure, found.figures[figure], expected, rel=rel, abs=None if rel else RESTITUTION)
+        if figure in shown:
+            rung.note(figure, found.figures[figure], expected)
+        elif (rel := (BANDS | bands)[figure]) is None:
+            rung.near(figure, found.figures[figure], expected, abs=of_restitution(catalogue.GROUPS[group][name]))
+        else:
+            rung.near(figure, found.figures[figure], expected, rel=rel)
     rung.curve(f"{group}/{name}", depth=found.depth, stress=found.stress)
     rung.curve(f"{group}/{name}/finer", depth=record["depth_m"], stress=record["stress_Pa"])
+
+
+def of_restitution(scene) -> float:
+    """How far restitution may be from the finer mesh's."""
+    return RESTITUTION if scene.elements >= FEW else OF_FEW
 
 
 def asymmetry(found: Outcome, mirror: str) -> float:

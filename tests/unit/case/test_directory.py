@@ -151,6 +151,18 @@ def test_all_problems_are_named_at_once(hole: Path) -> None:
         (["shot.size=CW14", "shot.diameter=1 mm"], "give exactly one of diameter and size; both are given"),
         (["accuracy.boundary=fixed", "effects.far_field=on"], '"fixed" contradicts effects.far_field'),
         (["accuracy.dem_time_step=0.53"], "is 0.53 of the Rayleigh step: above 0.5"),
+        (["accuracy.facet_size=0.1 mm"], "0.1 mm is less than a shot of 0.3556 mm touches at once"),
+        (["accuracy.facet_size=2 mm"], "12 facets go around the hole, of at most 1.963 mm"),
+        (["accuracy.facet_size=0.5"], "0.5 has no unit"),
+        (
+            [
+                "target.geometry.diameter=1.6 mm",
+                "deflector.diameter=0.4 mm",
+                "nozzle.0.diameter=0.5 mm",
+                "target.patch.arc=1 mm",
+            ],
+            "is too small for shots of 0.3556 mm: DEM needs 12 facets around it",
+        ),
         (["single_shot.speed=60 m/s"], "excludes nozzle: a case has one of nozzle, impacts, contacts, single_shot"),
         (["impacts.file=/etc/passwd"], "'/etc/passwd' leads out of the case directory"),
         (["impacts.file=../shots.csv"], "'../shots.csv' leads out of the case directory"),
@@ -261,6 +273,13 @@ def test_the_boundary_of_a_patch_through_the_plate_is_named_with_its_line(plate:
     text = PLATE.replace('"5 mm" }', '"0.2 mm" }') + '[accuracy]\nboundary = "far-field"\n'
     message = _complaint(_written(plate, text))
     assert 'case.toml line 16, accuracy.boundary: "far-field" asks for a body behind the patch' in message
+
+
+def test_one_shot_is_enough(hole: Path) -> None:
+    """In SI the product is 0.9999999999999999."""
+    case, _ = read_case(hole, ("exposure.duration=25 us",))
+    assert case.exposure is not None
+    assert round(case.exposure.duration * 40000) == 1
 
 
 def test_what_is_text_needs_no_quotes(hole: Path) -> None:

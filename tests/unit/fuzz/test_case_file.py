@@ -56,6 +56,7 @@ ACCURACY = optional(
     time_step=magnitude(0.01, 1),
     relaxation=magnitude(1e-6, 0.9),
     dem_time_step=magnitude(1e-3, 0.5),
+    facet_size=quantity(0.1, 5, "mm"),
     group_distance=st.one_of(st.just("off"), magnitude(0.1, 10)),
     min_normal_speed=quantity(0.01, 100, "m/s"),
 )

@@ -14,6 +14,7 @@ import pytest
 from decks import inconel, rollers
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
+from liggghts_dump import CONTACT, SNAPSHOT, WHOLE, snapshot
 
 from peenflow.case.impacts_csv import read_impacts
 from peenflow.dem.liggghts import dump, log
@@ -108,19 +109,6 @@ def test_a_table_that_is_none(tmp_path: Path, content: bytes, said: str):
 
 # ---- LIGGGHTS' dump and log ------------------------------------------------------------------------------------------
 
-SNAPSHOT = """\
-ITEM: TIMESTEP
-{}
-ITEM: NUMBER OF ENTRIES
-{}
-ITEM: BOX BOUNDS ff ff ff
--0.006 0.006
--0.006 0.006
--0.001 0.003
-ITEM: ENTRIES c_contacts[1] c_contacts[2]
-"""
-CONTACT = "0.1 0.2 0 0.1 0.2 0.3 0 0 -2 1 2 -62.5 0 7 3 0 0 9.25 1.5e-7 \n"
-DUMP = SNAPSHOT.format(0, 0) + SNAPSHOT.format(2, 2) + CONTACT * 2 + SNAPSHOT.format(4, 1) + CONTACT
 LOG = """\
 LIGGGHTS (Version LIGGGHTS-PUBLIC 3.8.0, compiled)
 Import of mesh target containing 2 triangle(s)
@@ -137,11 +125,11 @@ def rows(path: Path) -> list[dump.Rows]:
 
 
 @FUZZ
-@given(content=damaged(DUMP.encode()))
+@given(content=damaged(WHOLE.encode()))
 def test_a_damaged_dump(tmp_path: Path, content: bytes):
     path = tmp_path / "contacts.dump"
     path.write_bytes(content)
-    if content != DUMP.encode() and not refused(lambda: rows(path)):
+    if content != WHOLE.encode() and not refused(lambda: rows(path)):
         for part in rows(path):  # still a dump: then of whole rows
             assert part.point.shape == (len(part.step), 3)
             assert np.isfinite(part.force).all()
@@ -156,9 +144,7 @@ def test_a_damaged_dump(tmp_path: Path, content: bytes):
 @example([0.1] * 12 + [0, 0, -1] + [0.1] * 4)
 def test_any_row_of_a_dump_is_whole_or_refused(tmp_path: Path, cells: list[Any]):
     path = tmp_path / "contacts.dump"
-    path.write_text(
-        SNAPSHOT.format(0, 0) + SNAPSHOT.format(2, 1) + " ".join(map(str, cells)) + " \n" + SNAPSHOT.format(4, 0)
-    )
+    path.write_text(snapshot(0) + snapshot(2, " ".join(map(str, cells)) + " \n") + snapshot(4))
     said = refused(lambda: rows(path))
     assert said or len(cells) == 19
     assert not said or "contacts.dump" in said
@@ -167,7 +153,7 @@ def test_any_row_of_a_dump_is_whole_or_refused(tmp_path: Path, cells: list[Any])
 @pytest.mark.parametrize("count", [10**15, -1, 3])
 def test_a_count_of_rows_that_is_not_theirs(tmp_path: Path, count: int):
     path = tmp_path / "contacts.dump"
-    path.write_text(SNAPSHOT.format(0, count) + CONTACT * 2)
+    path.write_text(SNAPSHOT.format(0, count) + CONTACT.format(0) * 2)
     assert "is cut or damaged in the snapshot of step 0" in refused(lambda: rows(path))
 
 

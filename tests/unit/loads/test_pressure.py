@@ -1,40 +1,17 @@
+from typing import get_args
+
 import numpy as np
 import pytest
+from lawful import MEAN_PRESSURE, TOUCHING, calibration
 
 from peenflow.case.impacts_csv import ImpactTable
+from peenflow.case.model import PressureShape
 from peenflow.geometry import Plate
 from peenflow.geometry.block import build_block
 from peenflow.loads import pressure
 from peenflow.loads.impacts import Rules, from_table
-from peenflow.records.calibration import Calibration, SingleHit
 
 PLATE = Plate(1e-3)
-MEAN_PRESSURE = 4.2e9
-
-
-TOUCHING = 4.5e-7
-CONTACT_TIME = TOUCHING * (1 - 2 * np.arccos(1 - 2e-4) / np.pi)  # of a half sine, from 0.01 to 99.99 % of its impulse
-
-
-def hit(speed, force):
-    """A contact of constant mean pressure: area follows the force, a half sine."""
-    time = np.linspace(0, 5e-7, 501)
-    push = force * np.sin(np.pi * np.minimum(time / TOUCHING, 1))
-    return SingleHit(
-        speed=speed, hit=1, cor=0.35, peak_force=force, contact_time=CONTACT_TIME, impulse=1.0, dent_depth=1e-5,
-        dent_diameter=1.2e-4, max_mean_pressure=MEAN_PRESSURE, time=time, velocity=time, force=push,
-        contact_radius=np.sqrt(push / (np.pi * MEAN_PRESSURE)), radius=time, pressure=np.zeros((1, 1)),
-        dent_radius_axis=time, dent_uz=time,
-    )  # fmt: skip
-
-
-def calibration():
-    empty = np.zeros(1)
-    return Calibration(
-        shot_diameter=3.556e-4, shot_density=7800, speeds=(hit(20, 18.0), hit(40, 36.0), hit(62.5, 58.0)), hits=(),
-        depth=empty, mean_stress=empty, mean_peeq=empty, axis_stress=empty, axis_peeq=empty, elements=1, nodes=1,
-        steps=1, time_step=1e-9, energy_error=0.0, hourglass_energy_ratio=0.0, element_updates_per_s=1.0,
-    )  # fmt: skip
 
 
 def impacts(speeds, forces):
@@ -59,6 +36,18 @@ def test_forces_are_the_dems_times_the_factor_or_follow_the_normal_speed():
     assert pressure.fe_forces(impacts([40, 30], [np.nan, np.nan]), table) == pytest.approx([36.0, 27.0])
 
 
+def test_between_the_calibrated_forces_the_table_is_interpolated():
+    """By normal speed the force, by force the footprint's area; 27 N lies half-way between the first two hits."""
+    table = pressure.look_up_table(calibration())
+    assert table.force.tolist() == [0, 18, 36, 58]
+    assert table.forces(impacts([10, 30, 51.25], [np.nan] * 3)) == pytest.approx([9.0, 27.0, 47.0])
+    size = np.full(3, 3.556e-4)
+    assert np.pi * table.radii(np.array([9.0, 27.0, 47.0]), size) ** 2 * MEAN_PRESSURE == pytest.approx(
+        [9.0, 27.0, 47.0], rel=1e-3
+    )
+    assert table.durations(np.array([27.0]), size[:1]) == pytest.approx([calibration().speeds[0].contact_time])
+
+
 def test_beyond_the_table_the_footprint_grows_at_one_pressure():
     table = pressure.look_up_table(calibration())
     size = np.full(2, 3.556e-4)
@@ -77,9 +66,15 @@ def test_another_shots_loads_scale_with_its_diameter():
     assert durations[1] == pytest.approx(2 * durations[0])
 
 
-def test_loads_press_with_the_impacts_force_and_momentum():
+def pressed(shape):
     patch = build_block(np.linspace(-3e-4, 3e-4, 31), np.linspace(-3e-4, 3e-4, 31), np.full(2, 2e-5))
-    loads = pressure.pressure_loads(impacts([40], [np.nan]), PLATE.placement(np.zeros(2)), patch, calibration())
+    given = impacts([40], [np.nan])
+    return pressure.pressure_loads(given, PLATE.placement(np.zeros(2)), patch, calibration(), pressure.SHAPES[shape])
+
+
+@pytest.mark.parametrize("shape", get_args(PressureShape))
+def test_whatever_its_shape_a_load_presses_with_the_impacts_force_and_momentum(shape):
+    loads = pressed(shape)
     radius = np.linspace(0, loads.radius[0], 2001)
     force = [
         np.trapezoid(
@@ -92,6 +87,30 @@ def test_loads_press_with_the_impacts_force_and_momentum():
     impulse = np.trapezoid(force, loads.tau * loads.duration[0])
     assert impulse == pytest.approx(36.0 * 2 / np.pi * TOUCHING, rel=0.005)
     assert np.pi * loads.radius[0] ** 2 * MEAN_PRESSURE == pytest.approx(36.0, rel=1e-3)
+    assert loads.growth.max() == pytest.approx(1, rel=1e-4)
+
+
+def test_a_uniform_footprint_bears_the_mean_pressure_up_to_its_rim():
+    for shape in ("uniform", "octagon"):
+        loads = pressed(shape)
+        assert loads.peak[0] == pytest.approx(MEAN_PRESSURE, rel=1e-3)
+        assert np.unique(loads.shape).tolist() == np.unique(loads.growth).tolist() == [1.0]
+    assert (pressed("uniform").corners, pressed("octagon").corners) == (0, 8)
+
+
+def test_an_ellipse_falls_to_nothing_at_the_rim_from_more_than_the_mean_pressure():
+    loads = pressed("ellipse")
     assert loads.shape[0] == 1
     assert loads.shape[-1] == 0
-    assert loads.growth.max() == pytest.approx(1, rel=1e-4)
+    mean_share = np.pi / 4  # ∫√(1 − ρ⁴) 2ρ dρ from 0 to 1
+    assert loads.peak[0] == pytest.approx(MEAN_PRESSURE / mean_share, rel=2e-3)
+    assert np.unique(loads.growth).tolist() == [1.0]
+
+
+def test_a_growing_footprint_grows_with_the_contact():
+    fixed, growing = pressed("uniform"), pressed("growing-uniform")
+    assert growing.growth[0] == growing.growth[-1] == pressure.LEAST_GROWTH
+    assert growing.growth[50] == pytest.approx(1, rel=1e-4)
+    # at a constant mean pressure the area follows the force
+    grown = growing.growth > pressure.LEAST_GROWTH
+    assert growing.growth[grown] ** 2 == pytest.approx(fixed.history[grown], rel=0.01)

@@ -71,6 +71,12 @@ def test_no_contacts_are_nothing_to_translate():
     assert isinstance(stage.inputs(dataclasses.replace(hole, surface=None), MESHED), Skip)
 
 
+def test_the_pressures_shape_is_the_knobs(tmp_path):
+    asked = given(tmp_path)
+    asked = dataclasses.replace(asked, knobs=dataclasses.replace(KNOBS, pressure_shape="octagon"))
+    assert stage.inputs(asked, MESHED).pressure_shape == "octagon"
+
+
 def test_friction_acts_only_where_its_effect_is_on(tmp_path):
     off = given(tmp_path)
     on = dataclasses.replace(off, effects={"contact_friction": Decision(True, "on", None, 0.02, "", "")})

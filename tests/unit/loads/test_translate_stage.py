@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from lawful import calibration
 
 from peenflow.case.impacts_csv import ImpactTable
 from peenflow.errors import RunError
@@ -42,6 +43,7 @@ def case(surface, hits, **changes):
         min_normal_speed=5.0,
         group_distance=1.5,
         load="impact",
+        pressure_shape="growing-ellipse",
         calibration=None,
         sides="symmetric",
         boundary="far-field",
@@ -138,6 +140,20 @@ def test_only_slow_impacts_say_what_to_do(tmp_path):
     plate = Plate(1e-3)
     with pytest.raises(RunError, match=r"5 are slower than 100 m/s .* and 0 are on its rims"):
         stage.run(case(plate, table(plate, UV, SPEEDS), min_normal_speed=100.0), tmp_path, Silent())
+
+
+@pytest.mark.parametrize(("shape", "corners"), [("octagon", 8), ("growing-ellipse", 0)])
+def test_pressures_have_the_shape_asked_for(tmp_path, shape, corners):
+    plate = Plate(1e-3)
+    asked = case(
+        plate, table(plate, UV, SPEEDS), load="pressure", pressure_shape=shape, calibration=calibration(),
+        patch=build_block(np.linspace(-0.5e-3, 0.5e-3, 51), np.linspace(-0.5e-3, 0.5e-3, 51), np.full(3, 1e-4)),
+    )  # fmt: skip
+    deck = stage.run(asked, tmp_path, Silent()).deck
+    assert deck.spheres is None
+    assert len(deck.pressures.radius) == 3
+    assert deck.pressures.corners == corners
+    assert (deck.pressures.growth.min() < 1) == shape.startswith("growing")
 
 
 def test_pressure_without_calibration_is_refused(tmp_path):

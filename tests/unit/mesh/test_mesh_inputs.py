@@ -5,17 +5,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from peenflow import digest
+from peenflow.calibrate import stage as calibrate
+from peenflow.case.directory import read_case
 from peenflow.case.model import Case
 from peenflow.geometry import BoltHole, Plate
 from peenflow.mesh import stage
 from peenflow.records.material import Material
 from peenflow.records.upstream import Upstream
+from peenflow.resolve import resolve
 from peenflow.scene import Knobs, Scene, ShotProperties, Skip, Thrown
 
 KNOBS = Knobs(
     mesh_size=2e-5, calibration_mesh_size=1e-5, depth=7.5e-4, boundary="far-field", sides="symmetric", load="impact",
     time_step=0.8, relaxation=1e-3, dem_time_step=0.2, contact_interval=2, group_distance=1.5, min_normal_speed=5.0,
-    active_radius=0.0,
+    active_radius=0.0, facet_size=4.8e-4,
 )  # fmt: skip
 NOZZLE = {
     "position": ["1 mm", "0 mm", "20 mm"], "direction": [0, 0, -1], "diameter": "3 mm", "speed": "60 m/s",
@@ -57,7 +61,19 @@ def test_a_hole_under_nozzles_is_fine_all_over():
     inputs = stage.inputs(scene(hole, geometry=HOLE, patch=patch, nozzle=[NOZZLE]), Upstream())
     assert inputs.size == pytest.approx((2e-3, 1e-3))
     assert inputs.fine_depth == pytest.approx(1.8e-4)
-    assert (inputs.fine_half, inputs.thrown_at, inputs.dem) == (None, None, True)
+    assert (inputs.fine_half, inputs.thrown_at, inputs.facet_size) == (None, None, 4.8e-4)
+
+
+def test_other_facets_are_another_part_to_mesh_and_dem_alone():
+    cases = Path(__file__).parents[3] / "cases"
+    settings = ["accuracy.facet_size=0.7 mm"]
+    one, other = (resolve(*read_case(cases / "bolt-hole", given)) for given in ([], settings))
+    before, after = (digest.leaves(stage.inputs(each, Upstream())) for each in (one, other))
+    assert [name for name in before if before[name] != after[name]] == ["facet_size"]
+    before, after = (digest.leaves(calibrate.inputs(each, Upstream())) for each in (one, other))
+    assert before == after
+    given = (resolve(*read_case(cases / "patch", given)) for given in ([], settings))
+    assert len({stage.inputs(each, Upstream()).facet_size for each in given}) == 1  # nothing is thrown there
 
 
 def test_a_plates_facets_reach_beyond_the_jets_and_the_patch():
@@ -81,4 +97,4 @@ def test_given_impacts_bound_the_fine_zone(tmp_path):
     given = scene(Plate(5e-3), tmp_path, patch={"length": "1.4 mm", "width": "1.4 mm"}, impacts={"file": "shots.csv"})
     inputs = stage.inputs(given, Upstream())
     assert inputs.fine_half == pytest.approx((2e-4 + 1.5e-4, 1e-4 + 1.5e-4))
-    assert (inputs.dem, inputs.thrown_at) == (False, None)
+    assert (inputs.facet_size, inputs.thrown_at) == (None, None)

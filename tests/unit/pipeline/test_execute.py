@@ -12,7 +12,7 @@ import pytest
 from rich.console import Console as Terminal
 
 from peenflow.console import Console
-from peenflow.errors import InputError
+from peenflow.errors import RunError
 from peenflow.geometry import BoltHole, Plate
 from peenflow.mesh.stage import Inputs
 from peenflow.pipeline import manifest
@@ -31,11 +31,12 @@ BLOCK = Inputs(
     mesh_size=1e-4,
     fine_depth=1e-4,
     fine_half=None,
-    shot_diameter=3e-4,
-    dem=False,
+    facet_size=None,
     thrown_at=None,
 )
-IMPOSSIBLE = dataclasses.replace(BLOCK, surface=BoltHole(3e-4, 1e-2), shot_diameter=5e-4, dem=True)
+IMPOSSIBLE = dataclasses.replace(
+    BLOCK, surface=BoltHole(1e-4, 1e-3), size=(1e-4, 6e-4), mesh_size=3e-4, depth=3e-4
+)  # the layers below the bore turn over
 
 
 class Interrupting(Console):
@@ -100,7 +101,7 @@ def test_a_truncated_result_runs_it_again(bring: Callable[[Inputs | Skip], Outco
 
 
 def test_a_failure_is_kept_with_its_reason(bring: Callable[[Inputs | Skip], Outcome], tmp_path: Path):
-    with pytest.raises(InputError) as failure:
+    with pytest.raises(RunError) as failure:
         bring(IMPOSSIBLE)
     last = manifest.read(tmp_path, "mesh")
     assert (last.state, last.reason) == ("failed", str(failure.value))

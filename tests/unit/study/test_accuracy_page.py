@@ -13,6 +13,7 @@ ROOT = Path(__file__).parents[3]
 
 @pytest.fixture
 def tool(found, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "docs" / "scripts")
     spec = importlib.util.spec_from_file_location("study_tool", ROOT / "docs" / "scripts" / "study.py")
     module = importlib.util.module_from_spec(spec)
     monkeypatch.setitem(__import__("sys").modules, "study_tool", module)
@@ -21,6 +22,7 @@ def tool(found, tmp_path, monkeypatch):
     monkeypatch.setattr(module, "SHIPPED", tmp_path / "shipped.json")
     (tmp_path / "shipped.json").write_text("{}")
     monkeypatch.setattr(module, "TIMES", tmp_path / "times")
+    monkeypatch.setattr(module.seeds, "BUILD", tmp_path / "seeds")
     for case in module.SHIPPED_CASES:
         ledger = [{"stage": "calibrate", "wall_s": 13.0, "compile_s": 1.0, "predicted_wall_s": 10.0}]
         ledger.append({"stage": "report", "wall_s": 0.5, "compile_s": 0.0, "predicted_wall_s": 0.6})
@@ -56,3 +58,14 @@ def test_what_is_shipped_is_in_proportion_to_the_dent(tool, read, found):
     assert len(rows) == 1 + 3 + 1  # the base, meshes but the one without error, relaxation
     (row,) = (row for row in rows if row["accuracy"])
     assert row["accuracy"] == {"elements_per_dent": pytest.approx(found.scene.dent_radius / 15e-6, rel=1e-3)}
+
+
+def test_scatter_over_seeds_is_told_by_area(tool):
+    least = {1: -1.0e9, 2: -1.2e9}
+    rows = [
+        [{"impacts": seed, "least": least[seed], "surface": -5e8, "cpu_s": 40.0} for _ in tool.seeds.AREAS]
+        for seed in (1, 2)
+    ]
+    tool.seeds.BUILD.mkdir()
+    (tool.seeds.BUILD / "seeds.json").write_text(json.dumps(rows))
+    assert "| 0.4 | 1.5 | -1100 | 13 | -500 | 0 |" in tool.seeds.section()

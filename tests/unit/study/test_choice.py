@@ -119,10 +119,12 @@ def test_a_target_is_a_share(studied, target):
 
 def test_settings_travel_in_proportion_to_dent_and_shot():
     one, other = scene(CASES / "plate"), scene(CASES / "plate", "shot.diameter=0.7112 mm")
-    ratios = relative({"mesh_size": "0.02 mm", "depth": "0.7112 mm", "relaxation": 0.001}, one)
+    given = {"mesh_size": "0.02 mm", "depth": "0.7112 mm", "facet_size": "0.3556 mm", "relaxation": 0.001}
+    ratios = relative(given, one)
     found = absolute(ratios, other)
     assert ratios["depth_per_diameter"] == pytest.approx(2.0)
     assert float(found["depth"].removesuffix(" mm")) == pytest.approx(2 * 0.7112, rel=5e-3)
+    assert float(found["facet_size"].removesuffix(" mm")) == pytest.approx(0.7112, rel=5e-3)
     expected = 0.02 * other.dent_radius / one.dent_radius
     assert float(found["mesh_size"].removesuffix(" mm")) == pytest.approx(expected, rel=5e-3)
     assert found["relaxation"] == 0.001

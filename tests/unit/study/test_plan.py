@@ -69,6 +69,30 @@ def test_a_stream_has_its_knobs_and_given_impacts_have_not():
     assert left_out["depth"] == "the patch is as deep as the plate"
 
 
+def test_the_pressures_shape_is_studied_under_pressure_loads():
+    shapes = ["uniform", "octagon", "ellipse", "growing-uniform", "growing-ellipse"]
+    found = planned("plate", ("pressure_shape",))
+    assert values(found, "pressure_shape") == shapes
+    assert all(point.settings["accuracy.load"] == "pressure" for point in found.points)
+    assert "pressure_shape" in planned("single-shot").left_out
+
+
+def test_what_two_knobs_come_to_alike_is_run_once():
+    found = planned("plate", ("load", "pressure_shape"))
+    assert values(found, "load") == ["pressure"]
+    assert values(found, "pressure_shape") == ["uniform", "octagon", "ellipse", "growing-uniform"]
+
+
+def test_facets_are_varied_where_their_chords_stand_out_of_a_round_wall():
+    hole = planned("bolt-hole")
+    assert values(hole, "facet_size") == ["1.067 mm", "0.7112 mm", "0.5334 mm", "0.3556 mm"]
+    assert hole.reference.settings["accuracy.facet_size"] == "0.3556 mm"
+    narrow = planned("bolt-hole", None, "target.geometry.diameter=3.6 mm", "deflector.diameter=1.5 mm")
+    assert values(narrow, "facet_size")[0] == "0.7112 mm"
+    assert planned("plate").left_out["facet_size"] == "facets of any size follow a plane"
+    assert planned("single-shot").left_out["facet_size"] == "no stream is computed"
+
+
 def test_what_is_not_known_well_is_varied_only_when_asked_for():
     assert not [point for point in planned("single-shot").points if point.kind == "unsure"]
     found = planned("single-shot", ("material", "speed"))

@@ -6,28 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from liggghts_dump import WHOLE, snapshot
 
 from peenflow.dem.liggghts import dump
 from peenflow.errors import RunError
 
 REFERENCE = Path(__file__).parents[3] / "reference" / "dem_deflector"
-HEADER = """\
-ITEM: TIMESTEP
-{}
-ITEM: NUMBER OF ENTRIES
-{}
-ITEM: BOX BOUNDS ff ff ff
--0.006 0.006
--0.006 0.006
--0.001 0.003
-ITEM: ENTRIES c_contacts[1] c_contacts[2]
-"""
-ROW = "0.1 0.2 0 0.1 0.2 0.3 0 0 -2 1 2 -62.5 {} 7 3 0 0 9.25 1.5e-7 \n"
-WHOLE = (
-    HEADER.format(0, 0)
-    + HEADER.format(2, 2) + ROW.format(0) + ROW.format(1)
-    + HEADER.format(4, 1) + ROW.format(0)
-)  # fmt: skip
 
 
 def written(tmp_path, text):
@@ -56,7 +40,7 @@ def test_blocks_do_not_split_a_snapshot(tmp_path):
 
 
 def test_no_contact_at_all(tmp_path):
-    assert list(dump.blocks(written(tmp_path, HEADER.format(0, 0) + HEADER.format(2, 0)), 2, 2)) == []
+    assert list(dump.blocks(written(tmp_path, snapshot(0) + snapshot(2)), 2, 2)) == []
 
 
 def test_a_cut_anywhere_is_an_error(tmp_path):

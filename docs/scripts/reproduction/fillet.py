@@ -1,0 +1,174 @@
+"""Figure 23: two nozzles at once on the root fillet of a blade."""
+
+import functools
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import reading
+from parts import ROOT, Bench, Found, Part, Row, Table, summary
+from scene_picture import Around, scene_picture
+
+from peenflow.dem.engine import Stream
+from peenflow.loads.impacts import Rules, from_contacts
+from peenflow.loads.placement import HARD
+from peenflow.scene import Scene
+from peenflow.surfaces import jet
+
+CASE = ROOT / "cases" / "blade-fillet"
+ENGINE = "dem.engine=liggghts"  # whose time is worth saving
+THROWN = {"both at once": (0, 1), "one side alone": (0,), "the other alone": (1,)}  # nozzles
+MPA, UM, MS = 1e-6, 1e6, 1e3
+
+
+@dataclass(frozen=True)
+class Thrown:
+    """A DEM run."""
+
+    simulated: float  # s
+    wall: float  # s
+    cpu: float  # s
+    shots: int
+    speeds: tuple[np.ndarray, np.ndarray]  # m/s, normal, of the hard impacts on y > 0 and on y < 0
+
+
+def measure(bench: Bench) -> Found:
+    """The case end to end, then LIGGGHTS with both nozzles and with each alone."""
+    results = bench.run(CASE, "fillet")
+    runs = {name: throw(bench, name.replace(" ", "-"), nozzles) for name, nozzles in THROWN.items()}
+    of = scene()
+    undrawn = scene_picture(reading.peening(of, results), around(of, results), bench.pictures / "fillet.png")
+    if undrawn is not None:
+        raise SystemExit(f"fillet.png: {undrawn}")
+    return Found(
+        rows=[*time_rows(runs), *side_rows(runs), *stress_rows(summary(results))],
+        pictures={
+            "fillet.png": "Figure 23. Above: the blade's root between its two nozzles (blue) with their jets and the "
+            "impacts of both; the orange line bounds the patch of finite elements. Below: the patch's mesh."
+        },
+        tables=[table(runs)],
+        told="Every run ends with 1 ms in which the last shots reach the part. The saving counts where the DEM is "
+        "slow: the case as shipped takes the event-driven engine, which needs "
+        f"{reading.cost(results, 'dem').wall_s:.1f} s for both nozzles.",
+    )
+
+
+@functools.cache
+def scene() -> Scene:
+    """The case as shipped."""
+    return reading.scene(CASE)
+
+
+def throw(bench: Bench, name: str, nozzles: Sequence[int]) -> Thrown:
+    """LIGGGHTS with some of the nozzles."""
+    every = tomllib.loads((CASE / "case.toml").read_text(encoding="utf-8"))["nozzle"]
+    case = bench.case(name, CASE.name, {"nozzle": [every[index] for index in nozzles]})
+    out = bench.run(case, name, ENGINE, until="dem")
+    cost, contacts = reading.cost(out, "dem"), reading.record(out, "dem")
+    of = scene()
+    assert of.surface is not None
+    impacts = from_contacts(contacts, of.surface, Rules(of.knobs.min_normal_speed, of.dent_radius))
+    hard = impacts.normal_speed >= HARD * of.speed
+    sides = tuple(impacts.normal_speed[hard & (impacts.point[:, 1] * sign > 0)] for sign in (1, -1))
+    return Thrown(contacts.duration, cost.wall_s, cost.cpu_s, contacts.shots, (sides[0], sides[1]))
+
+
+def time_rows(runs: Mapping[str, Thrown]) -> list[Row]:
+    """What it saves."""
+    both, *alone = runs.values()
+    simulated, wall = (sum(getattr(run, name) for run in alone) for name in ("simulated", "wall"))
+    return [
+        Row(
+            "simulated time, both nozzles at once over one after the other",
+            '"can significantly speed up"',
+            both.simulated / simulated,
+            "",
+            f"{MS * both.simulated:.0f} ms instead of {MS * simulated:.0f} ms",
+        ),
+        Row(
+            "DEM's wall time, likewise",
+            None,
+            both.wall / wall,
+            "",
+            f"{both.wall:.1f} s instead of {wall:.1f} s for as many shots; steps with more shots in flight take longer",
+        ),
+    ]
+
+
+def side_rows(runs: Mapping[str, Thrown]) -> list[Row]:
+    """Whether the jets leave each other alone."""
+    both, one, other = runs.values()
+    names = ("y > 0", "y < 0")
+    rows = []
+    for side, (name, alone) in enumerate(zip(names, (one, other), strict=True)):
+        at_once, itself = both.speeds[side], alone.speeds[side]
+        rows.append(
+            Row(
+                f"hard impacts on the side {name}",
+                None,
+                len(at_once),
+                "",
+                f"{len(itself)} with its nozzle alone; median normal speed {np.median(at_once):.1f} m/s, alone "
+                f"{np.median(itself):.1f} m/s",
+            )
+        )
+    strayed = len(one.speeds[1]) + len(other.speeds[0])
+    rows.append(
+        Row(
+            "hard impacts of a nozzle alone on the far side",
+            '"that do not interfere with each other"',
+            strayed,
+            "",
+            "the blade stands between the jets" if not strayed else "strays over or around the blade",
+        )
+    )
+    return rows
+
+
+def stress_rows(figures: Mapping[str, Mapping[str, float]]) -> list[Row]:
+    """The case end to end."""
+    under, fe, impacts = figures["residual_axis"], figures["fe"], figures["impacts"]
+    return [
+        Row(
+            "largest compression under the hardest impact, (S11+S22)/2",
+            None,
+            MPA * under["min_Pa"],
+            "MPa",
+            f"{UM * under['depth_of_min_m']:.0f} µm deep, {under['normal_speed_m_s']:.1f} m/s along the normal; "
+            f"{impacts['on_patch']} impacts on the patch, {fe['elements']} elements straight below the fillet",
+        )
+    ]
+
+
+def table(runs: Mapping[str, Thrown]) -> Table:
+    """Run by run."""
+    head = ["nozzles", "simulated [ms]", "wall [s]", "CPU [s]", "shots", "hard impacts, y > 0", "hard impacts, y < 0"]
+    lines = [
+        [name, MS * run.simulated, run.wall, run.cpu, run.shots, *(len(speeds) for speeds in run.speeds)]
+        for name, run in runs.items()
+    ]
+    return Table("LIGGGHTS on the fillets, all on this machine", head, lines)
+
+
+def around(of: Scene, results: Path) -> Around:
+    """The part and both nozzles."""
+    thrown: Stream = reading.stream(of, results)
+    flights = [jet(of.surface, index, nozzle)[0] for index, nozzle in enumerate(of.case.nozzle)]
+    return Around(
+        triangles=thrown.walls.triangles,
+        nozzles=thrown.nozzles,
+        flights=flights,
+        view=(1.0, 0.2, 0.85),
+        up=(0.0, 0.0, 1.0),
+        zoom=1.8,
+    )
+
+
+PART = Part(
+    title="Two nozzles at once on a blade's root",
+    of="section 4.2, Figure 23",
+    here="`cases/blade-fillet`: as many tables `[[nozzle]]` as there are nozzles; `report/part.png`",
+    measure=measure,
+)
