@@ -131,6 +131,7 @@ def test_off_the_rim(where, engine, rung, tmp_path):
     contacts = thrown(between_plates(engine, -away, -away if "corner" in where else 2e-3, 0.4), tmp_path, engine)
     calm(rung, contacts)
     rung.between("contacts of the floor", (contacts.point[:, 2] < 0.5 * CEILING).sum(), 1, 1e3)
+    rung.below("speed after over before", np.linalg.norm(after_first(contacts)), 1.0)
 
 
 GAPS = [pytest.param(0.2, marks=pytest.mark.long), 0.9, 1.05, pytest.param(1.2, marks=pytest.mark.long)]
@@ -209,11 +210,11 @@ def test_alone_in_a_gap(gap, engine, rung, tmp_path):
     rim = STOP - rod.diameter / 2  # where the tip is lowest, and shots shall be in the middle of the ring
     start = np.array([HOLE - max(gap, 1 + FACETED) * diameter / 2, 0.0, rim]) - 8e-3 * way
     wide = {"LIGGGHTS": diameter, "event-driven": 1e-9}[engine]
-    nozzle = Nozzle(tuple(start), tuple(way), wide, SPEED, 0.0, 40000.0, 0.0)
+    nozzle = Nozzle(tuple(start), tuple(way), wide, SPEED, 0.0, 20000.0, 0.0)
     stream = dataclasses.replace(stream, rod=rod, nozzles=(nozzle,), duration=0.2e-3)
     contacts = thrown(stream, tmp_path, engine)
     within(rung, contacts, stream, gap)
-    rung.near("shots", contacts.shots, 8, abs=1)
+    rung.near("shots", contacts.shots, 4, abs=1)
     shot, number = np.unique(contacts.shot, return_inverse=True)
     rung.near("of them, seen to meet a wall", len(shot), contacts.shots, abs=0)
     lowest = np.full(len(shot), np.inf)

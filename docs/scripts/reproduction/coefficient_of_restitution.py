@@ -9,6 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from parts import ROOT, Bench, Found, Part, Row, Table, summary
 
+from peenflow.case.directory import read_case
+from peenflow.resolve import resolve
 from peenflow.results import drawing
 
 SPEED = 100.0  # m/s
@@ -80,7 +82,12 @@ def table(isotropic: Mapping[str, np.ndarray], kinematic: Mapping[str, np.ndarra
     lines += [[name, "with backstress", *line(found)] for name, found in kinematic.items()]
     lines.append(["paper", "not stated", *line(np.array(PAPER))])
     head = ["set", "hardening", *(f"hit {hit + 1}" for hit in range(len(PAPER))), "mean", "hit 4 / hit 1"]
-    return Table("By set; preset `standard`", head, lines)
+    return Table(f"By set, elements of {mesh_size():.4f} mm", head, lines)
+
+
+def mesh_size() -> float:
+    """Elements of preset `standard` on the set in use [mm]."""
+    return 1e3 * resolve(*read_case(CASE, HITS)).knobs.calibration_mesh_size
 
 
 def line(found: np.ndarray) -> list[float]:
@@ -92,6 +99,7 @@ def verdict(isotropic: Mapping[str, np.ndarray], kinematic: Mapping[str, np.ndar
     """How the sets stand to the paper."""
     every = {f"`{name}`": found for name, found in isotropic.items()}
     every |= {f"`{name}` with backstress": found for name, found in kinematic.items()}
+    swing = max(float(np.abs(found - isotropic[name]).max()) for name, found in kinematic.items())
     off = {name: float(np.sqrt(np.mean((found - PAPER) ** 2))) for name, found in every.items()}
     best = min(off, key=off.__getitem__)
     steps = np.diff(np.array(list(every.values())), axis=1)
@@ -101,7 +109,9 @@ def verdict(isotropic: Mapping[str, np.ndarray], kinematic: Mapping[str, np.ndar
         f"last rise ({steps[:, -1].min():.3f} to {steps[:, -1].max():.3f}) is smaller than the first "
         f"({steps[:, 0].min():.3f} to {steps[:, 0].max():.3f}): a dent that fits the shot hardens less each time. The "
         f"paper's last rise is {PAPER[-1] - PAPER[-2]:.3f}, larger than its first, {PAPER[1] - PAPER[0]:.3f}. "
-        "The program takes restitution by speed and hit from its own table (effect `cor_hardening`), not one mean."
+        f"The backstress changes no figure by more than {swing:.4f}. Contact is hard here: it stores no energy and "
+        "gives none back; how hard the paper's was it does not say. The program takes restitution by speed and hit "
+        "from its own table (effect `cor_hardening`), not one mean."
     )
 
 

@@ -251,10 +251,9 @@ def verdict(pairs: Sequence[Pair]) -> str:
     full = [impulse / (force * duration) for force, duration, impulse in (DEM_PAPER, FEM_PAPER)]
     return (
         f"The paper's Table 2 is not of one hit at {STATED:g} m/s: its impulse asks for {pairs[1].speed:g} m/s at its "
-        f"own restitution of {RESTITUTION:g}, so both speeds are shown and nothing is fitted. Its "
-        f"{dem}; its {fem}. J/(F T) is how full a force history is (a half sine has "
-        f"{2 / math.pi:.3f}, a triangle 0.5): "
-        f"the paper's two columns have {full[0]:.3f} and {full[1]:.3f}."
+        f"own restitution of {RESTITUTION:g}, so both speeds are shown and nothing is fitted. Its {dem}; its {fem}. "
+        f"J/(F T) is how full a force history is (a half sine has {2 / math.pi:.3f}, a triangle 0.5): the paper's two "
+        f"columns have {full[0]:.3f} and {full[1]:.3f}."
     )
 
 

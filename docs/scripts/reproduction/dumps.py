@@ -116,7 +116,7 @@ def split_rows(split: Mapping[int, Thrown]) -> list[Row]:
             len(merged) / len(one),
             "",
             f"{len(merged)} and {len(one)} of as many shots, mean normal speed {merged.mean():.1f} and "
-            f"{one.mean():.1f} m/s, {apart:.1f} standard errors apart: other random numbers, the same statistics",
+            f"{one.mean():.1f} m/s, {apart:.1f} standard errors apart, of other random numbers",
         ),
     ]
 

@@ -1,6 +1,7 @@
 """A run that goes wrong is taken back and mended with smaller steps, or ends with its last good state."""
 
 import dataclasses
+import re
 
 import meshio
 import numpy as np
@@ -48,9 +49,22 @@ def test_steps_twice_too_long_are_mended(tmp_path):
     assert mended.energy_error < 0.02
 
 
+TOLD = re.compile(
+    r"The solver stopped at step (\d+) \([\d.e+-]+ µs\): "
+    r"(element \d+ at \(.*\) mm of the patch has no volume left|.*, nodes are fastest at \(.*\) mm)\."
+)
+
+
 def test_what_cannot_be_mended_ends_with_the_last_good_state(tmp_path):
+    """It says each time where, when and what went wrong, within a hundred steps of the first, which are too long."""
+    heard = Heard()
     with pytest.raises(RunError, match=r"went back 3 times.*last good state, of step \d+") as caught:
-        solve(struck(40.0), tmp_path / "checkpoint.npz", Silent())
+        solve(struck(40.0), tmp_path / "checkpoint.npz", heard)
+    told = [TOLD.match(said) for said in (*heard.notes, str(caught.value))]
+    assert len(told) == 4
+    assert all(found and int(found[1]) <= 100 for found in told)
+    assert "speed or a material constant" in str(caught.value)
+    assert caught.value.exit_status == 1
     assert "\n" not in str(caught.value)
     kept = meshio.read(tmp_path / LAST_GOOD)
     assert np.isfinite(kept.cell_data["S11_Pa"][0]).all()

@@ -21,7 +21,7 @@ BANDS = {
     "speed along the surface, out over in": 0.02,
 }
 # Absolute: it tends to 0 where all is plastic. Its error is of first order in the elements' size (on three meshes each,
-# 1.3 beside a free edge and 1.1 at 5°): with fewer than `FEW` elements in a dent's radius it may be larger.
+# 1.5 beside a free edge and 1.1 at 5°): with fewer than `FEW` elements in a dent's radius it may be larger.
 RESTITUTION, OF_FEW, FEW = 0.0125, 0.016, 3.0
 UNIQUE = 1e-9  # m: nodes of the mirrored mesh nearer than this are the same
 
