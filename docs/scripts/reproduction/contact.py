@@ -180,7 +180,7 @@ def table_2(one: Pair) -> list[Row]:
             US * DEM_PAPER[1],
             US * one.dem.duration,
             "µs",
-            "while the force pushes; the paper gives one digit and no definition",
+            "from first touch while the force pushes; the paper does not define it",
         ),
         Row(
             f"{at}: duration, FEM",

@@ -199,9 +199,9 @@ def _told(fine: tuple[Peened, Pressed], coarse: tuple[Peened, Pressed]) -> str:
     return (
         "All pressures follow the deforming surface and have the calibrated impact's force by time; they differ in "
         f"where it acts. Nearest on the axis are {' and '.join(nearest)}: pressures are ill-conditioned, so that what "
-        "the mesh adds in stiffness, or the surface in area as it stretches into the dent, decides more than the shape. "
-        "None of them should be trusted without an impact beside it; the impact, the default of `accuracy.load`, costs "
-        "about as much. The paper's figure is normalised with a yield stress it does not give, and its look-up table "
+        "the mesh adds in stiffness, or the surface in area as it stretches into the dent, decides more than the "
+        "shape. None of them should be trusted without an impact beside it, which is the default of `accuracy.load`. "
+        "The paper's figure is normalised with a yield stress it does not give, and its look-up table "
         "may have been scaled until the two agreed; nothing is scaled here."
     )
 
