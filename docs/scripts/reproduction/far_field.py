@@ -143,9 +143,10 @@ def _told(runs: Runs, deep: Peened) -> str:
     better = [depth for depth in DEPTHS if _off(runs["far-field"][depth], deep) < _off(runs["fixed"][depth], deep)]
     where = "every depth" if len(better) == len(DEPTHS) else ", ".join(f"{depth:g}" for depth in better) + " mm"
     return (
-        f"Elements of {MESH}. The deep mesh, supported instead, differs by {other:.2f} %. The far field is nearer to it than a support at {where}. The paper's infinite elements absorb "
-        "waves and hold nothing (*no support in the vertical direction*), as dashpots alone do here; springs for the "
-        "stiffness of the body behind are this program's addition."
+        f"Elements of {MESH}. The deep mesh, supported instead, differs by {other:.2f} %. The far field is nearer to "
+        f"it than a support at {where}. The paper's infinite elements absorb waves and hold nothing (*no support in "
+        "the vertical direction*), as dashpots alone do here; springs for the stiffness of the body behind are this "
+        "program's addition."
     )
 
 
@@ -198,15 +199,15 @@ def stresses(runs: Runs, deep: Peened) -> Figure:
     right.set_ylabel("[MPa]")
     profile.legend(loc="lower right")
     for (name, words), colour in zip(BOUNDARIES.items(), COLOURS, strict=True):
-        for measured, mark, where in ((_axis, "o-", "axis"), (_mean, "s--", "mean over the dent")):
+        for measured, mark, label in ((_axis, "o-", words), (_mean, "s--", None)):
             errors = [measured(runs[name][depth], deep) for depth in DEPTHS]
-            error.loglog(DEPTHS, errors, mark, color=colour, ms=4.5, lw=1.5, label=f"{words}, {where}")
+            error.loglog(DEPTHS, errors, mark, color=colour, ms=4.5, lw=1.5, label=label)
     error.axvline(PAPER, color=RED, lw=1.0, ls=":", label=f"the paper's {PAPER:g} mm")
     error.set(xlabel="depth of the mesh [mm]", ylabel="rms difference from the deep mesh [%]")
     error.set_xticks(DEPTHS, [f"{depth:g}" for depth in DEPTHS])
     error.minorticks_off()
     error.yaxis.set_major_formatter("{x:g}")
-    error.legend(loc="upper right", fontsize=8.5)
+    error.legend(loc="upper right", title="axis; dashed: mean", frameon=True, edgecolor="none")
     return figure
 
 

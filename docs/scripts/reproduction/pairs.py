@@ -25,6 +25,7 @@ PAPER = 1.5  # diameters
 AT_ONCE, IN_TURN = "0.1", "10"  # accuracy.group_distance, below and above all distances
 MATTERS = 1.0  # %, rms
 SCALE = 1700.0  # MPa, of the sections
+TICKS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5)  # %
 
 
 @dataclass(frozen=True)
@@ -156,13 +157,13 @@ def _told(pairs: Pairs) -> str:
 
 def picture(pairs: Pairs) -> Figure:
     """Figure 22: sections, and the change by distance."""
-    figure = drawing.canvas(9.6, 6.4)
-    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 1.25))
+    figure = drawing.canvas(9.6, 5.6)
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 2))
     panels = upper.subplots(1, len(SHOWN), sharey=True)
     for axes, apart in zip(panels, SHOWN, strict=True):
         cells = _section(axes, pairs.at_once[apart], apart)
     panels[0].set_ylabel("z [µm]")
-    upper.colorbar(cells, ax=panels, label="(S11 + S22)/2 [MPa]")
+    upper.colorbar(cells, ax=panels, label="(S11 + S22)/2\n[MPa]")
     axes = lower.subplots()
     for change, colour, mark, name in (
         (pairs.from_alone, BLUE, "o-", "two at once, from one alone"),
@@ -173,17 +174,19 @@ def picture(pairs: Pairs) -> Figure:
     axes.axvline(PAPER, color=RED, lw=1.0, ls=":", label=f"the paper's {PAPER:g} d")
     axes.axhline(MATTERS, color=QUIET, lw=0.8, ls="--")
     axes.set(xlabel="distance of the shots [diameters]", ylabel="rms change under the first [%]")
+    axes.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
+    axes.minorticks_off()
     axes.legend()
     return figure
 
 
 def _section(axes: Axes, one: Peened, apart: float) -> PolyCollection:
     corners, stress = one.section()
+    corners[:, :, 0] -= FIRST
     cells = PolyCollection(UM * corners, array=MPA * stress, cmap="RdBu_r", edgecolor="face", lw=0.2, rasterized=True)
     cells.set_clim(-SCALE, SCALE)
     axes.add_collection(cells)
-    middle = UM * (FIRST + apart * DIAMETER / 2)
-    axes.set(title=f"{apart:g} d apart", xlabel="x [µm]", xlim=(middle - 480, middle + 480), ylim=(-300, 20))
+    axes.set(title=f"{apart:g} d apart", xlabel="from the left shot [µm]", xlim=(-220, 780), ylim=(-330, 20))
     axes.set_aspect("equal")
     axes.grid(visible=False)
     return cells

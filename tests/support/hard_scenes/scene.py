@@ -69,13 +69,9 @@ class Scene:
 
     @property
     def dent(self) -> Dent:
-        """Predicted, of the hardest hit along the normal; softened where the part is hot."""
+        """Predicted, of the hardest hit along the normal."""
         hardest = max(-hit.velocity[2] for hit in self.hits)
-        m = self.material
-        soft = 1.0
-        if m.thermal:
-            soft -= ((m.thermal.initial - m.thermal.room) / (m.thermal.melt - m.thermal.room)) ** m.thermal.m
-        return predict(hardest, self.shot, dataclasses.replace(m, A=soft * m.A, B=soft * m.B))
+        return predict(hardest, self.shot, self.material)
 
     @property
     def mesh_size(self) -> float:
