@@ -76,7 +76,7 @@ PARTS = {
         "cases/plate",
         "The DEM's knobs, grouping of impacts and the least speed that counts, beside the scatter over seeds.",
         knobs="dem_time_step,contact_interval,facet_size,group_distance,min_normal_speed,seed",
-        settings=("accuracy.preset=draft", "accuracy.mesh_size=0.03 mm"),
+        settings=("dem.engine=liggghts", "accuracy.preset=draft", "accuracy.mesh_size=0.03 mm"),
     ),
     "bolt-hole": Part(
         "The bolt hole from end to end",

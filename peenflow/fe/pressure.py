@@ -1,4 +1,8 @@
-"""Pressure loads that follow the deforming surface: footprint × radial shape × history, from tables."""
+"""Pressure loads that follow the deforming surface: footprint × radial shape × history, from tables.
+
+They turn with the surface but do not grow with it: pressure is force over undeformed area, as calibrations tell it, so
+that a load keeps its force while the dent stretches under it (by a tenth in area).
+"""
 
 from typing import NamedTuple
 
@@ -17,6 +21,7 @@ class Footprints(NamedTuple):
     nodes: np.ndarray  # (n,) every node under a load
     start: np.ndarray  # (s + 1,) first row of each load
     quads: np.ndarray  # (k, 4) node numbers of each sample's quad
+    area: np.ndarray  # (k,) m², of each sample's undeformed quad
     distance: np.ndarray  # (k,) of the sample from the load's centre, in the footprint's own measure (1: its rim)
     peak: np.ndarray  # (s,) Pa
     t_start: np.ndarray  # (s,) s
@@ -62,8 +67,9 @@ def footprints(loads: PressureLoads, patch: Patch) -> Footprints:
     points = samples(corners)
     diagonal = np.linalg.norm(corners[:, 2] - corners[:, 0], axis=1).max()
     normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
-    start, quads, distances = [0], [np.zeros((0, 4), int)], [np.zeros(0)]
+    area = 0.5 * np.linalg.norm(normals, axis=1)
+    normals /= 2 * area[:, None]
+    start, quads, areas, distances = [0], [np.zeros((0, 4), int)], [np.zeros(0)], [np.zeros(0)]
     for point, radius in zip(loads.point, loads.radius, strict=True):
         offset = corners.mean(axis=1) - point
         near = np.flatnonzero((offset**2).sum(axis=1) < (1.2 * radius + diagonal) ** 2)
@@ -78,12 +84,14 @@ def footprints(loads: PressureLoads, patch: Patch) -> Footprints:
         measure = footprint_measure(flat.reshape(-1, 2), loads.corners)
         inside = measure < 1.0
         quads.append(np.repeat(patch.surface[near], SAMPLES**2, axis=0)[inside])
+        areas.append(np.repeat(area[near], SAMPLES**2)[inside])
         distances.append(measure[inside])
         start.append(start[-1] + int(inside.sum()))
     under = np.concatenate(quads).astype(np.int64)
     tables = (np.ascontiguousarray(t, float) for t in (loads.tau, loads.history, loads.growth, loads.rho, loads.shape))
     times = (loads.peak, loads.t_start, loads.duration)
-    return Footprints(np.unique(under), np.array(start), under, np.concatenate(distances), *times, *tables)
+    placed = np.array(start), under, np.concatenate(areas), np.concatenate(distances)
+    return Footprints(np.unique(under), *placed, *times, *tables)
 
 
 @kernel
@@ -98,9 +106,9 @@ def diagonal(X, u, a, b):
 
 @kernel
 def add_pressure(loads, t, X, u, external):
-    """external (n, 3) [N] += nodal forces of the loads at time t: −p A n/4 at a quad's nodes, A n of the deformed quad.
+    """external (n, 3) [N] += nodal forces of the loads at time t: −p A n/4 at a quad's nodes.
 
-    A n is half the cross product of the quad's diagonals.
+    A is the undeformed quad's area, n the deformed one's normal: that of the cross product of its diagonals.
     """
     for s in range(len(loads.peak)):
         tau = (t - loads.t_start[s]) / loads.duration[s]
@@ -114,8 +122,10 @@ def add_pressure(loads, t, X, u, external):
             quad = loads.quads[k]
             px, py, pz = diagonal(X, u, quad[0], quad[2])
             qx, qy, qz = diagonal(X, u, quad[1], quad[3])
-            eighth = 0.125 / SAMPLES**2 * peak * np.interp(loads.distance[k] / reach, loads.rho, loads.shape)
+            nx, ny, nz = py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx
+            pressure = peak * np.interp(loads.distance[k] / reach, loads.rho, loads.shape)
+            share = 0.25 / SAMPLES**2 * pressure * loads.area[k] / np.sqrt(nx**2 + ny**2 + nz**2)
             for i in quad:
-                external[i, 0] -= eighth * (py * qz - pz * qy)
-                external[i, 1] -= eighth * (pz * qx - px * qz)
-                external[i, 2] -= eighth * (px * qy - py * qx)
+                external[i, 0] -= share * nx
+                external[i, 1] -= share * ny
+                external[i, 2] -= share * nz

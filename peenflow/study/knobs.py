@@ -25,7 +25,7 @@ FINER = 1.5  # the base's mesh over the reference's then
 TIME_STEPS = (0.9, 0.8, 0.7)  # 0.6 takes twice the steps of relaxation and moves the profile by 0.05 %
 CELL_RELAXATIONS = (0.02, 0.01, 0.005, 0.002)  # 0.001: likewise
 PATCH_RELAXATIONS = (0.005, 0.002, 0.001, 0.0005, 0.0003)
-HOURGLASSES = (0.02, 0.05, 0.1, 0.15)
+HOURGLASSES = (0.01, 0.02, 0.05, 0.1)
 DEPTHS = (0.75, 1.05, 1.6, 2.1, 3.2)  # shot diameters
 GROUP_DISTANCES = (1.0, 1.5, 2.0)  # shot diameters
 DEM_TIME_STEPS = (0.3, 0.2, 0.1)
@@ -64,6 +64,12 @@ def _patch_only(scene: Scene) -> str | None:
 
 def _nozzles_only(scene: Scene) -> str | None:
     return None if scene.case.nozzle else "no stream is computed"
+
+
+def _stepped_only(scene: Scene) -> str | None:
+    if scene.engine is not None and scene.engine.name == "event-driven":
+        return "the event-driven engine goes from event to event, without a time step"
+    return _nozzles_only(scene)
 
 
 def _facets_missing(scene: Scene) -> str | None:
@@ -178,8 +184,8 @@ KNOBS: tuple[Knob, ...] = (
     Knob("group_distance", _groups_only, _group_distance),
     Knob("active_radius", _patch_only, _words("1", "1.5", "2", "3", "off", reference="off")),
     Knob("min_normal_speed", _patch_only, _min_normal_speed),
-    Knob("dem_time_step", _nozzles_only, lambda scene: _falling(DEM_TIME_STEPS, scene.knobs.dem_time_step)),
-    Knob("contact_interval", _nozzles_only, lambda scene: _falling(CONTACT_INTERVALS, scene.knobs.contact_interval)),
+    Knob("dem_time_step", _stepped_only, lambda scene: _falling(DEM_TIME_STEPS, scene.knobs.dem_time_step)),
+    Knob("contact_interval", _stepped_only, lambda scene: _falling(CONTACT_INTERVALS, scene.knobs.contact_interval)),
     Knob("facet_size", _facets_missing, _facet_size),
     Knob("sides", _sides, _words("symmetric", "free")),
     Knob("preset", _everywhere, _words(*PRESETS)),

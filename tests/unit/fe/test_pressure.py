@@ -68,3 +68,10 @@ def test_it_follows_the_tilted_surface():
     u[:, 2] = 0.1 * PATCH.nodes[:, 0]
     total = forces(load(), 0.5e-6, u).sum(axis=0)
     assert total[0] == pytest.approx(-0.1 * total[2], rel=1e-6)
+
+
+def test_it_keeps_its_force_while_the_surface_stretches_under_it():
+    u = np.zeros_like(PATCH.nodes)
+    u[:, :2] = 0.1 * PATCH.nodes[:, :2]
+    at_rest, stretched = (forces(load(), 0.5e-6, moved).sum(axis=0)[2] for moved in (None, u))
+    assert stretched == pytest.approx(at_rest, rel=1e-9)
