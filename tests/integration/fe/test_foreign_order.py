@@ -30,11 +30,28 @@ def test_the_answer_is_that_of_the_mesh_in_rows(tmp_path):
     local = Solver(foreign, 1)
     assert np.median(np.ptp(local.deck.patch.hexes, axis=1)) < 0.1 * np.median(np.ptp(foreign.patch.hexes, axis=1))
 
-    own, other = (solve(each, tmp_path / f"{i}.npz", Silent()) for i, each in enumerate((deck, foreign)))
+    decks = (deck, foreign, in_the_last_digits(deck))
+    own, other, near = (solve(each, tmp_path / f"{i}.npz", Silent()) for i, each in enumerate(decks))
     assert other.steps == own.steps
     assert other.spheres.velocity_out == pytest.approx(own.spheres.velocity_out, rel=1e-6, abs=1e-9)
-    # sums in another order differ in their last digits, and which node touches first makes more of that
-    moved = np.abs(own.displacement).max()
-    assert other.displacement == pytest.approx(own.displacement[mixed.nodes], abs=1e-5 * moved)
-    assert other.stress == pytest.approx(own.stress[mixed.elements], abs=1e-4 * np.abs(own.stress).max())
-    assert other.peeq == pytest.approx(own.peeq[mixed.elements], abs=1e-5)
+    # sums in another order differ in their last digits; what becomes of those, the third run tells
+    same = Order(np.arange(len(mixed.nodes)), np.arange(len(mixed.elements)))
+    for quantity, order in (("displacement", "nodes"), ("stress", "elements"), ("peeq", "elements")):
+        values = getattr(own, quantity)
+        found, expected = (
+            apart(getattr(run, quantity), values[getattr(numbers, order)])
+            for run, numbers in ((other, mixed), (near, same))
+        )
+        assert found < 3 * expected + 1e-9, quantity
+        assert found < 1e-4, quantity
+
+
+def in_the_last_digits(deck):
+    """The same deck on nodes that are elsewhere by what sums in another order differ by."""
+    nodes = deck.patch.nodes * (1 + 1e-15 * np.random.default_rng(2).choice([-1, 0, 1], deck.patch.nodes.shape))
+    return dataclasses.replace(deck, patch=dataclasses.replace(deck.patch, nodes=nodes))
+
+
+def apart(found, expected):
+    """Root mean square of the difference over the largest value."""
+    return np.sqrt(np.mean((found - expected) ** 2)) / np.abs(expected).max()
