@@ -94,6 +94,8 @@ ERRORS = {
     "error_zero_crossing": "zero crossing",
     "error_cor": "CoR",
     "error_force": "force",
+    "error_impacts": "impacts",
+    "error_normal_speed": "normal speed",
 }
 FIGURES = {
     "cor": ("CoR", 1.0, ""),
@@ -157,14 +159,12 @@ def section(name: str, study: dict) -> list[str]:
         lines += [f"Its own error of the profile, extrapolated: {percent(study['reference_error_profile'])} %."]
     if any(row["kind"] == "knob" for row in study["rows"]):
         lines += ["", f"![error against CPU time](accuracy/{name}.svg)"]
-    lines += [
-        "",
-        "| | knob | value | " + " | ".join(ERRORS.values()) + " | CPU s |",
-        "| --- " * (len(ERRORS) + 4) + "|",
-    ]
+    columns = [name for name in ERRORS if any(row[name] is not None for row in study["rows"])]
+    lines += ["", f"| | knob | value | {' | '.join(ERRORS[name] for name in columns)} | CPU s |"]
+    lines += ["| --- " * (len(columns) + 4) + "|"]
     for row in study["rows"]:
         cells = ["★" if row["pareto"] else "", row["knob"], row["value"] or "–"]
-        cells += [percent(row[column]) for column in ERRORS] + [f"{row['cpu_s']:.3g}"]
+        cells += [percent(row[column]) for column in columns] + [f"{row['cpu_s']:.3g}"]
         lines.append("| " + " | ".join(cells) + " |")
     advice = [f"- {each['text']}" for each in study["recommendations"]]
     return [*lines, "", *mesh(study), *band(study), *advice, ""]

@@ -28,6 +28,8 @@ def roughness(patch: Patch, displacement: np.ndarray, square: Square) -> Roughne
 def height_raster(patch: Patch, displacement: np.ndarray, square: Square) -> np.ndarray:
     """Normal displacement (k, k) [m] on a raster over the square (axis 1, axis 2), as fine as the finest quad.
 
+    A square of few quads has two points in each sampling length of its profiles all the same.
+
     The part's own shape (the bore's curvature) is not roughness, so only the displacement along the normal counts.
     """
     nodes = patch.node_sets["surface"]
@@ -38,7 +40,7 @@ def height_raster(patch: Patch, displacement: np.ndarray, square: Square) -> np.
     u, v = _node_coordinates(patch, quads, len(nodes)).T
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     low, high = extent(patch)
-    count = max(2, round(square.side / cell_sizes(patch).min())) + 1
+    count = max(2 * SAMPLING_LENGTHS, round(square.side / cell_sizes(patch).min()) + 1)
     # a hair inside the patch: on its very edge rounding decides whether a point belongs to any triangle
     line = np.linspace(-0.5, 0.5, count) * square.side * (1 - 1e-9)
     at = np.meshgrid(*((low + high)[:, None] / 2 + line), indexing="ij")

@@ -52,3 +52,13 @@ def test_the_square_limits_what_counts():
     displacement[:, 2] = np.where(np.abs(patch.nodes).max(axis=1) > 0.31e-3, -50e-6, 0)
     assert roughness(patch, displacement, Square(0.6e-3, True)).Sa == 0
     assert roughness(patch, displacement, Square(1e-3, True)).Sa > 10e-6
+
+
+def test_a_square_of_few_elements_has_a_roughness():
+    lines = np.linspace(-0.5e-3, 0.5e-3, 41)
+    patch = build_block(lines, lines, np.array([0.1e-3]))
+    displacement = np.zeros_like(patch.nodes)
+    displacement[:, 2] = -0.1 * np.abs(patch.nodes[:, 0])
+    found = roughness(patch, displacement, Square(0.05e-3, True))
+    assert 0.1e-6 < found.Ra < 2.5e-6
+    assert 0.1e-6 < found.Rz < 2.5e-6
