@@ -69,7 +69,7 @@ class Knobs:
     group_distance: float | None  # shot diameters; None: impacts keep their own times
     active_radius: float  # m around impacts, within which elements take part; 0: everywhere
     min_normal_speed: float  # m/s
-    hourglass: float = 0.03  # Flanagan–Belytschko stiffness coefficient
+    hourglass: float = 0.05  # Flanagan–Belytschko stiffness coefficient
     precision: Literal["float64", "float32"] = "float64"  # of the solver's arrays
     pressure_shape: PressureShape = "growing-ellipse"  # where `load` is pressure
     facet_size: float | None = None  # m, edges of the facets that DEM throws shots at; None: there is no part

@@ -11,7 +11,7 @@ SHALLOWEST = 0.02  # of the deepest dent: what is shallower does not count (desi
 CONTACT_INTERVAL = 2  # DEM steps: loses at most 1 % of a contact's impulse
 CELL_WIDTH = 9.0  # shot radii of a single shot's unit cell: its faces hardly matter to the residual stress
 MARGIN = 1.0  # predicted dent radii between an impact that is loaded and the patch's edge
-HOURGLASS = 0.03  # Flanagan and Belytschko's coefficient: docs/decisions/hourglass.md
+HOURGLASS = 0.05  # Flanagan and Belytschko's coefficient: docs/decisions/hourglass.md
 FACET_SIZES = {"plate": 8.0, "bolt-hole": 1.35, "fillet": 1.6, "step": 1.6}  # shot diameters; see `facet_size`
 GROUP_DISTANCE = 1.5  # shot diameters: two simultaneous hits change the residual stress by 0.5 % rms (1.0: 1.2 %)
 

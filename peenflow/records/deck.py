@@ -98,7 +98,7 @@ class Controls:
     time_step_share: Annotated[float, of("1", "share of the stable step")]
     active_radius: Annotated[float, of("m", "around impacts, within which elements take part; 0: all do")] = 0.0
     precision: Annotated[str, of("", "of nodal and element fields: float64 or float32; sums are float64")] = "float64"
-    hourglass_stiffness: Annotated[float, of("1", "Flanagan–Belytschko stiffness coefficient")] = 0.03
+    hourglass_stiffness: Annotated[float, of("1", "Flanagan–Belytschko stiffness coefficient")] = 0.05
     bulk_viscosity_linear: Annotated[float, of("1", "linear bulk viscosity")] = 0.06
     bulk_viscosity_quadratic: Annotated[float, of("1", "quadratic bulk viscosity")] = 1.2
     relaxation: Annotated[float, of("1", "largest residual: unbalanced over internal nodal force")]

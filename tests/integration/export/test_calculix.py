@@ -20,6 +20,8 @@ from peenflow.results.profiles import below, weighted
 
 H = 12.5e-6
 RADIUS, PEAK = 60e-6, 4e9  # one pressure impact: a mean of 3.2 yield stresses, as under a shot
+    0.05  # hourglass coefficient as stiff as CalculiX's eight points, which lock a little where metal flows: see below
+)
 SLOW = 4.5e-6  # s: ten contact times, in which waves cross the patch sixty times
 TAU = np.linspace(0, 1, 101)
 
@@ -90,13 +92,28 @@ def read_dat(path, count):
 
 @pytest.fixture(scope="module")
 def here(quarter, tmp_path_factory):
-    """The same faces under the same pressure, each face a load of its own, in this solver."""
+    """The same faces under the same pressure, each face a load of its own, in this solver.
+
+    CalculiX presses on the deformed area, this solver on the undeformed one: a second run has each pressure larger by
+    what its face has stretched in the first.
+    """
     (zone,) = zones(quarter, quarter.pressures)
     assert zone.pressure == pytest.approx(PEAK)
     patch = quarter.patch
-    middles = patch.nodes[patch.surface[patch.column[zone.elements]]].mean(axis=1)
-    faces = loads(middles, H / np.sqrt(np.pi), 4, SLOW)
-    return solve(dataclasses.replace(quarter, pressures=faces), tmp_path_factory.mktemp("fe") / "c.npz", Silent())
+    corners = patch.surface[patch.column[zone.elements]]
+    faces = loads(patch.nodes[corners].mean(axis=1), H / np.sqrt(np.pi), 4, SLOW)
+    folder = tmp_path_factory.mktemp("fe")
+    first = solve(dataclasses.replace(quarter, pressures=faces), folder / "first.npz", Silent())
+    stretch = areas((patch.nodes + first.displacement)[corners]) / areas(patch.nodes[corners])
+    assert 1.0 < stretch.mean() < 1.1
+    stretched = dataclasses.replace(faces, peak=faces.peak * stretch)
+    return solve(dataclasses.replace(quarter, pressures=stretched), folder / "second.npz", Silent())
+
+
+def areas(corners):
+    """Of quads (q, 4, 3)."""
+    diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    return 0.5 * np.linalg.norm(np.cross(*diagonals), axis=1)
 
 
 def profiles(quarter, here, calculix, weight):
@@ -114,7 +131,11 @@ def apart(quarter, here, calculix, weight):
 
 
 def test_residual_stress_over_the_dent_agrees(quarter, here, calculix):
-    """One integration point here, eight there, and the dent is eight elements wide: that much they may differ."""
+    """One integration point here, eight there, and the dent is ten elements wide: that much they may differ.
+
+    On this mesh the least stress on the axis is −1503 MPa by CalculiX's C3D8, −1539 by the one-point element, −1748 by
+    this solver's own eight points with mean dilation, which do not lock.
+    """
     rms, least = apart(quarter, here, calculix, (np.hypot(*quarter.patch.uv.T) < 1.5 * RADIUS).astype(float))
     assert rms < 0.05
     assert least == pytest.approx(1.0, abs=0.08)

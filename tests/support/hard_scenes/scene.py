@@ -58,7 +58,7 @@ class Scene:
     thickness: float | None = None  # m, on a rigid floor
     time_step: float = 0.8
     precision: str = "float64"
-    hourglass: float = 0.03  # coefficient of its stiffness
+    hourglass: float = 0.05  # coefficient of its stiffness
     relaxation: float = 0.005  # residual
     reshape: Callable[[Patch], Patch] | None = None
     mirrors: tuple[str, ...] = ()  # "x", "y" flips and the "xy" swap that must not change the answer
