@@ -20,8 +20,6 @@ from peenflow.results.profiles import below, weighted
 
 H = 12.5e-6
 RADIUS, PEAK = 60e-6, 4e9  # one pressure impact: a mean of 3.2 yield stresses, as under a shot
-    0.05  # hourglass coefficient as stiff as CalculiX's eight points, which lock a little where metal flows: see below
-)
 SLOW = 4.5e-6  # s: ten contact times, in which waves cross the patch sixty times
 TAU = np.linspace(0, 1, 101)
 
