@@ -145,7 +145,7 @@ def study(found: Mapping[str, Any], out: Path) -> None:
     table = _table("", "knob", "value", *_ERRORS.values(), "CPU s", "wall s")
     for row in found["rows"]:
         differences = ("" if row[name] is None else f"{100 * row[name]:.2g}" for name in _ERRORS)
-        knob = row["knob"] + (" (against base)" if row["kind"] == "unsure" else "")
+        knob = row["knob"] + (" (against base)" if row["kind"] in ("stream", "unsure") else "")
         mark = "★" if row["pareto"] else ""
         _row(table, mark, knob, row["value"], *differences, f"{row['cpu_s']:.3g}", f"{row['wall_s']:.3g}")
     (OUTPUT if OUTPUT.is_terminal else Console(width=WIDE)).print(table)

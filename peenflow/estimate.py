@@ -10,14 +10,15 @@ import numpy as np
 from peenflow import hourglass, machine
 from peenflow.calibrate import unit_cell
 from peenflow.calibrate.stage import DENTS_AT_REST
-from peenflow.case.accuracy import CELL_WIDTH
+from peenflow.case.accuracy import CELL_WIDTH, SCATTERS
 from peenflow.case.contacts_csv import read_contacts
 from peenflow.case.impacts_csv import read_impacts
+from peenflow.case.model import PlateGeometry
 from peenflow.dem.engine import FLUSH, rayleigh_step
 from peenflow.errors import InputError
 from peenflow.geometry.grading import layers
 from peenflow.loads.stage import AFTER_LAST, GROUP_INTERVAL
-from peenflow.mesh import grid, shape
+from peenflow.mesh import shape
 from peenflow.mesh import stage as mesh_stage
 from peenflow.records.upstream import Upstream
 from peenflow.repeats import CROWDING, HITS_PER_SHOT
@@ -37,6 +38,7 @@ PICTURES = {True: 2.9, False: 0.6}  # s for a report's pictures: of a patch, one
 BASE_MEMORY = 3e8  # B of a Python process with its libraries
 CONTACT_BYTES = 300.0  # a contact row in memory
 
+IN_A_RUN = 0.8  # of the speed on the benchmark's cube: contact, histories, looks at the residual take the rest
 SPEED_UP = {"float64": 1.0, "float32": 1.35}  # of element updates, by precision
 CALIBRATION_RUNS = 6  # three speeds, and three more hits at the fastest
 HIT_TIME = 2.0  # contact times from first touch to the end of a hit (`calibrate.hit`)
@@ -80,7 +82,8 @@ def estimate(scene: Scene) -> dict[str, Any]:
     Raises:
         InputError: the table of impacts cannot be read.
     """
-    sizes = measure(scene)
+    meshed = mesh_stage.inputs(scene, Upstream())
+    sizes = measure(scene, meshed)
     stages = _stages(scene, sizes)
     return {
         "title": scene.case.title,
@@ -118,7 +121,7 @@ def estimate(scene: Scene) -> dict[str, Any]:
         },
         "accuracy": {"chosen": scene.chosen, "knobs": dataclasses.asdict(scene.knobs)},
         "machine": {"measured": machine.known().measured, "threads": machine.threads()},
-        "warnings": _warnings(scene, sizes),
+        "warnings": _warnings(scene, sizes, meshed),
     }
 
 
@@ -128,17 +131,22 @@ def predicted_wall(scene: Scene) -> float:
     Raises:
         InputError: the table of impacts cannot be read.
     """
-    return START + sum(wall for wall, _ in _stages(scene, measure(scene)).values())
+    sizes = measure(scene, mesh_stage.inputs(scene, Upstream()))
+    return START + sum(wall for wall, _ in _stages(scene, sizes).values())
 
 
-def measure(scene: Scene) -> Sizes:
+def measure(scene: Scene, meshed: mesh_stage.Inputs | Skip) -> Sizes:
     """Count elements, shots, impacts and steps.
+
+    Args:
+        scene: of the case.
+        meshed: what its patch is meshed from.
 
     Raises:
         InputError: the table of impacts cannot be read.
     """
     cell = _cell_elements(scene) if _calibrates(scene) else 0
-    elements = _elements(scene)
+    elements = 0 if isinstance(meshed, Skip) else _elements(meshed)
     impacts = _impacts(scene)
     groups = _groups(scene, impacts)
     h = scene.knobs.mesh_size if elements else scene.knobs.calibration_mesh_size
@@ -178,18 +186,10 @@ def _calibrates(scene: Scene) -> bool:
     return bool(scene.case.nozzle) or scene.case.single_shot is not None or scene.knobs.load == "pressure"
 
 
-def _elements(scene: Scene) -> int:
-    inputs = mesh_stage.inputs(scene, Upstream())
-    if isinstance(inputs, Skip):
-        return 0
-    h = inputs.mesh_size
-    _refuse_endless(h, *inputs.size, inputs.depth)
-    if inputs.fine_half is None:
-        lines = [grid.uniform_lines(size, h) for size in inputs.size]
-    else:
-        lines = [grid.graded_lines(s, h, fine) for s, fine in zip(inputs.size, inputs.fine_half, strict=True)]
-    deep = len(layers(h, inputs.fine_depth, inputs.depth, grid.DEPTH_GROWTH))
-    return (len(lines[0]) - 1) * (len(lines[1]) - 1) * deep
+def _elements(inputs: mesh_stage.Inputs) -> int:
+    _refuse_endless(inputs.mesh_size, *inputs.size, inputs.depth)
+    xs, ys, thicknesses = mesh_stage.grid_lines(inputs)
+    return (len(xs) - 1) * (len(ys) - 1) * len(thicknesses)
 
 
 def _refuse_endless(h: float, *sizes: float) -> None:
@@ -246,7 +246,8 @@ def _stages(scene: Scene, sizes: Sizes) -> dict[str, tuple[float, float]]:
     """Wall time [s] and memory [B] of the stages that have work, in order."""
     costs: dict[str, tuple[float, float]] = {}
     own = machine.known()
-    rate, slow = SPEED_UP[scene.knobs.precision] * own.rate(machine.threads()), own.slowness
+    rate = IN_A_RUN * SPEED_UP[scene.knobs.precision] * own.rate(machine.threads())
+    slow = own.slowness
     patch = sizes.elements * FE_BYTES
     if sizes.elements:
         costs["mesh"] = (slow * (STAGE + 1e-5 * sizes.elements), BASE_MEMORY + patch)
@@ -274,21 +275,12 @@ def _stream(scene: Scene, sizes: Sizes) -> float:
     return STAGE + sizes.dem_steps * (DEM_STEP * shards + DEM_SHOT[moving] * sizes.shots)
 
 
-def _warnings(scene: Scene, sizes: Sizes) -> list[str]:
+def _warnings(scene: Scene, sizes: Sizes, meshed: mesh_stage.Inputs | Skip) -> list[str]:
     knobs, engine, found = scene.knobs, scene.engine, []
     if engine is not None and engine.name == "event-driven" and engine.dense:
         found.append(f'dem.engine is "event-driven", but {engine.why.partition("; ")[2]}: use "auto" or "liggghts".')
-    if engine is not None and knobs.dem_time_step > LARGEST_DEM_STEP:
-        found.append(
-            f"accuracy.dem_time_step is {knobs.dem_time_step:g} of the Rayleigh step: above {LARGEST_DEM_STEP:g} "
-            "LIGGGHTS' shots rebound with another coefficient of restitution than asked; use 0.2 or less."
-        )
-    if engine is not None and (knobs.facet_size or math.inf) < scene.shot.diameter:
-        found.append(
-            f"accuracy.facet_size is {(knobs.facet_size or 0.0) * 1e3:.3g} mm, shorter than the largest shot's "
-            f"diameter, {scene.shot.diameter * 1e3:.3g} mm: one contact may spread over several facets, among which "
-            "LIGGGHTS splits its force; give the diameter or more."
-        )
+    if engine is not None and engine.name == "liggghts":
+        found += _stepped(scene)
     h = knobs.mesh_size if sizes.elements else knobs.calibration_mesh_size
     if h > scene.dent_radius / COARSEST * (1 + 1e-9):
         found.append(
@@ -301,12 +293,33 @@ def _warnings(scene: Scene, sizes: Sizes) -> list[str]:
             f"hourglass control will hold some {100 * held:.0f} % of the internal energy, where 10 % is tolerable: "
             "lower accuracy.mesh_size (it goes with the power 1.6 of it), or accuracy.hourglass."
         )
-    meshed = mesh_stage.inputs(scene, Upstream())
     if not isinstance(meshed, Skip):
         found += shape.told(shape.under_dents(meshed))
     found += _rubbed(scene)
     if sizes.elements and sizes.impacts < 1:
         found.append("less than one impact is expected on the patch: shoot longer, or make target.patch larger.")
+    return found
+
+
+def _stepped(scene: Scene) -> list[str]:
+    """Warnings of what LIGGGHTS alone has: a time step, and forces split among facets."""
+    found, step, size = [], scene.knobs.dem_time_step, scene.knobs.facet_size
+    geometry, diameter = scene.case.target.geometry, scene.shot.diameter
+    if step > LARGEST_DEM_STEP:
+        found.append(
+            f"accuracy.dem_time_step is {step:g} of the Rayleigh step: above {LARGEST_DEM_STEP:g} "
+            "LIGGGHTS' shots rebound with another coefficient of restitution than asked; use 0.2 or less."
+        )
+    if geometry is None or isinstance(geometry, PlateGeometry) or size is None:
+        return found  # on a plane facets are as large as one likes
+    least = SCATTERS[geometry.kind] * diameter
+    if size < least * (1 - 1e-9):
+        edges = "" if least == diameter else f", with edges down to {size / least * diameter * 1e3:.3g} mm"
+        found.append(
+            f"accuracy.facet_size is {size * 1e3:.3g} mm{edges}, shorter than the largest shot's diameter, "
+            f"{diameter * 1e3:.3g} mm: one contact may spread over several facets, among which LIGGGHTS splits its "
+            f"force; give {least * 1e3:.3g} mm or more."
+        )
     return found
 
 

@@ -124,7 +124,7 @@ def _extremes(thrown: Thrown, arrival: Arrival) -> tuple[ShotProperties, ShotPro
     if len(thrown.diameters) > 1:
         larger = np.cumsum(thrown.shares[::-1])[::-1]  # share of the shots that are at least as large
         small, large = float(thrown.diameters[larger >= RESOLVED][-1]), float(thrown.diameters[-1])
-    return dataclasses.replace(thrown.shot, diameter=small), dataclasses.replace(thrown.shot, diameter=large)
+    return thrown.shot.sized(small), thrown.shot.sized(large)
 
 
 def _repeats(case: Case, thrown: Thrown, arrival: Arrival, dent_radius: float) -> float:

@@ -28,6 +28,10 @@ class ShotProperties:
         """[kg]."""
         return self.density * math.pi / 6 * self.diameter**3
 
+    def sized(self, diameter: float) -> "ShotProperties":
+        """One of the same metal with another `diameter` [m]."""
+        return replace(self, diameter=diameter)
+
 
 @dataclass(frozen=True)
 class Thrown:
@@ -40,7 +44,7 @@ class Thrown:
     @property
     def smallest(self) -> ShotProperties:
         """The smallest shot."""
-        return replace(self.shot, diameter=float(self.diameters[0]))
+        return self.shot.sized(float(self.diameters[0]))
 
     @property
     def mass(self) -> float:

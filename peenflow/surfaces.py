@@ -67,7 +67,7 @@ def _faces(case: Case, geometry: FilletGeometry | StepGeometry, directory: Path)
     else:
         part = BladeRoot(geometry.radius, geometry.thickness, geometry.height, geometry.length, geometry.platform)
         x, y, z = in_fillet(geometry, units.to_si(patch.at[0], "m"), units.to_si(patch.at[1], "rad"))
-    edges = facet_size(case, float(shots.thrown(case.shot, case.shot.size_spread).diameters[-1]))
+    edges = facet_size(case)
     assert edges is not None, "there is a geometry"
     return survey(part, Wish((x, y, z), patch.size, patch_depth(case, shot), shot.diameter, edges, bool(case.nozzle)))
 

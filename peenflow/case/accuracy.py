@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 from peenflow.case.model import Case, PlateGeometry
 from peenflow.dent import Dent, speed_for_depth
+from peenflow.geometry.cad.facets import SCATTER
+from peenflow.materials import shots
 from peenflow.records.material import Material
 from peenflow.scene import Knobs, ShotProperties
 
@@ -12,7 +14,8 @@ CONTACT_INTERVAL = 2  # DEM steps: loses at most 1 % of a contact's impulse
 CELL_WIDTH = 9.0  # shot radii of a single shot's unit cell: its faces hardly matter to the residual stress
 MARGIN = 1.0  # predicted dent radii between an impact that is loaded and the patch's edge
 HOURGLASS = 0.05  # Flanagan and Belytschko's coefficient: docs/decisions/hourglass.md
-FACET_SIZES = {"plate": 8.0, "bolt-hole": 1.35, "fillet": 1.6, "step": 1.6}  # shot diameters; see `facet_size`
+FACET_SIZES = {"plate": 8.0, "bolt-hole": 1.35, "fillet": SCATTER, "step": SCATTER}  # shot diameters; see `facet_size`
+SCATTERS = {"plate": 1.0, "bolt-hole": 1.0, "fillet": SCATTER, "step": SCATTER}  # facet size over the shortest edge
 GROUP_DISTANCE = 1.5  # shot diameters: two simultaneous hits change the residual stress by 0.5 % rms (1.0: 1.2 %)
 
 
@@ -45,15 +48,19 @@ def patch_depth(case: Case, shot: ShotProperties) -> float:
     return min(depth, geometry.thickness) if isinstance(geometry, PlateGeometry) else depth
 
 
-def facet_size(case: Case, largest: float) -> float | None:
+def facet_size(case: Case) -> float | None:
     """Edges of DEM's facets [m]: accuracy.facet_size, else so that none is shorter than the largest shot's diameter.
 
     A contact may spread over several facets with shorter edges and its force be split among them (the method's paper,
-    section 2.2). On a plane, which facets of any size follow, they may be large; those of a mesher's triangles scatter.
+    section 2.2): the case may ask for such, and is warned. On a plane, which facets of any size follow, they may be
+    large. In a hole this is the size around it, edges along it are longer (`peenflow.mesh.facets`). On CAD faces the
+    mesher's edges scatter, down to this over `SCATTER`. The largest shot is that of shot.size_spread even where this
+    effect is decided to be off, for CAD faces are meshed before.
     """
     geometry = case.target.geometry
     if geometry is None:
         return None
+    largest = float(shots.thrown(case.shot, case.shot.size_spread).diameters[-1])
     return case.accuracy.facet_size or FACET_SIZES[geometry.kind] * largest
 
 
@@ -100,5 +107,5 @@ def knobs(case: Case, shot: ShotProperties, material: Material, dents: Dents, fa
         min_normal_speed=slowest,
         hourglass=given.hourglass or HOURGLASS,
         precision=given.precision,
-        facet_size=facet_size(case, shot.diameter),
+        facet_size=facet_size(case),
     )

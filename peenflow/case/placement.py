@@ -1,6 +1,5 @@
 """Whether shots, nozzles, rod and patch fit the part: sizes and places against each other."""
 
-import dataclasses
 import math
 from collections.abc import Callable, Iterator
 
@@ -63,7 +62,7 @@ def _far_field(case: Case) -> Iterator[Problem]:
     geometry = case.target.geometry
     if not isinstance(geometry, PlateGeometry) or case.target.patch is None:
         return
-    shot = dataclasses.replace(shots.properties(case.shot), diameter=_largest(case))
+    shot = shots.properties(case.shot).sized(_largest(case))
     if patch_depth(case, shot) < geometry.thickness * (1 - 1e-9):
         return
     wishes = {("accuracy", "boundary"): case.accuracy.boundary, ("effects", "far_field"): case.effects.far_field}
@@ -192,14 +191,14 @@ def _rod_before_nozzles(case: Case, rod: Deflector) -> Iterator[Problem]:
 def _facets(case: Case) -> Iterator[Problem]:
     """DEM's facets are larger than what a shot touches, and small enough to go round a hole."""
     shot, given, hole = _largest(case), case.accuracy.facet_size, case.target.geometry
-    size, key = facet_size(case, shot), ("accuracy", "facet_size")
+    size, key = facet_size(case), ("accuracy", "facet_size")
     if not case.nozzle or size is None:
         return
     if given is not None and given < CONTACT * shot:
         yield Problem(
             key,
-            f"{_mm(given)} is less than a shot of {_mm(shot)} touches at once: give its diameter, at least "
-            f"{_mm(CONTACT * shot)}",
+            f"{_mm(given)} is less than a shot of {_mm(shot)} touches at once: give the shot's diameter, and never "
+            f"less than {_mm(CONTACT * shot)}",
         )
     if not isinstance(hole, BoltHoleGeometry) or shot >= hole.diameter:
         return
@@ -208,12 +207,18 @@ def _facets(case: Case) -> Iterator[Problem]:
         yield Problem(
             key, f"{_mm(given)} is too long: {LEAST_AROUND} facets go around the hole, of at most {_mm(largest)}"
         )
-    elif size > largest or hole.length < shot:
+    elif size > largest:
         yield Problem(
             ("target", "geometry"),
             f"a hole of {_mm(hole.diameter)} × {_mm(hole.length)} is too small for shots of {_mm(shot)}: DEM needs "
             f"{LEAST_AROUND} facets around it, {FACET_SIZES[hole.kind]:g} times as long as the shot's diameter. Take a "
-            "larger hole or smaller shots",
+            f"larger hole or smaller shots, or state accuracy.facet_size, at most {_mm(largest)}",
+        )
+    if hole.length < shot:
+        yield Problem(
+            ("target", "geometry", "length"),
+            f"a hole {_mm(hole.length)} long is shorter than a shot of {_mm(shot)}, and so would DEM's facets be along "
+            "it. Take a longer hole or smaller shots",
         )
 
 

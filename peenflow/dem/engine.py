@@ -1,6 +1,5 @@
 """What an engine is given (`Stream`) and what it gives back (`Contacts`, one a shard)."""
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -104,8 +103,7 @@ class Stream:
     @property
     def time_step(self) -> float:
         """Of the smallest shot, whose Rayleigh step is the shortest [s]."""
-        smallest = dataclasses.replace(self.shot, diameter=float(self.diameters[0]))
-        return self.time_step_share * rayleigh_step(smallest)
+        return self.time_step_share * rayleigh_step(self.shot.sized(float(self.diameters[0])))
 
 
 class Engine(Protocol):

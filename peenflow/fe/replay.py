@@ -1,4 +1,10 @@
-"""Nodal replay: what the spheres did to each surface node, put on the same mesh as forces without spheres."""
+"""Nodal replay: what the spheres did to each surface node, put on the same mesh as forces without spheres.
+
+No stage uses it. It separates what a load's shape errs from what its resultant does: a dent from forces that are exact
+node by node is that against which shapes of pressure are measured (docs/reproduction.md), and it checks the solver's
+forces from outside. All steps' forces on all surface nodes are kept in memory (24 B each): for single impacts, not for
+streams.
+"""
 
 import dataclasses
 

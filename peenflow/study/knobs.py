@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import get_args
 
-from peenflow.case.accuracy import PRESETS
+from peenflow.case.accuracy import PRESETS, SCATTERS
 from peenflow.case.model import BoltHoleGeometry, PlateGeometry, PressureShape
 from peenflow.case.placement import LEAST_AROUND
 from peenflow.dent import speed_for_depth
@@ -30,7 +30,8 @@ DEPTHS = (0.75, 1.05, 1.6, 2.1, 3.2)  # shot diameters
 GROUP_DISTANCES = (1.0, 1.5, 2.0)  # shot diameters
 DEM_TIME_STEPS = (0.3, 0.2, 0.1)
 CONTACT_INTERVALS = (4, 2, 1)
-FACET_SIZES = (3.0, 2.0, 1.5, 1.0)  # diameters of the largest shot: chords stand out less
+FACET_SIZES = (3.0, 2.0, 1.5, 1.0)  # shortest edge over the largest shot's diameter: chords stand out less
+WRITTEN = 1e-3  # share of a length that its four digits may be off
 PRESSED = {"accuracy.load": "pressure"}
 SHALLOWEST = (0.1, 0.05, 0.02, 0.01)  # of the deepest dent: what is shallower is dropped
 
@@ -51,6 +52,7 @@ class Knob:
     missing: Callable[[Scene], str | None]  # why a case has it not; None: it has
     sweep: Callable[[Scene], Sweep]
     beside: Mapping[str, str] = field(default_factory=dict)  # settings without which its values mean nothing
+    chaotic: bool = False  # another value throws another stream, as another seed does: not the reference's either
 
 
 def _everywhere(scene: Scene) -> str | None:
@@ -75,7 +77,12 @@ def _stepped_only(scene: Scene) -> str | None:
 def _facets_missing(scene: Scene) -> str | None:
     if isinstance(scene.case.target.geometry, PlateGeometry):
         return "facets of any size follow a plane"
-    return _nozzles_only(scene)
+    why = _nozzles_only(scene)
+    if why is not None or _facet_sizes(scene):
+        return why
+    if isinstance(scene.case.target.geometry, BoltHoleGeometry):
+        return "facets that go around so narrow a hole are shorter than the shot's diameter"
+    return "the mesher's edges scatter down to the shot's diameter already"
 
 
 def _groups_only(scene: Scene) -> str | None:
@@ -136,11 +143,26 @@ def _falling(values: Sequence[float], base: float, written: str = "{:g}") -> Swe
 
 
 def _facet_size(scene: Scene) -> Sweep:
-    """Where chords err: no longer than a case may have them, and not below the shot's diameter."""
-    hole, shot = scene.case.target.geometry, scene.shot.diameter
-    most = math.pi * hole.diameter / LEAST_AROUND if isinstance(hole, BoltHoleGeometry) else math.inf
-    sizes = [share * shot for share in FACET_SIZES if share * shot < most]
-    return _falling([size * 1e3 for size in sizes], (scene.knobs.facet_size or most) * 1e3, "{:.4g} mm")
+    return _falling([size * 1e3 for size in _facet_sizes(scene)], _own_facet_size(scene) * 1e3, "{:.4g} mm")
+
+
+def _facet_sizes(scene: Scene) -> list[float]:
+    """[m], falling, where chords err: no edge shorter than the shot's diameter.
+
+    In a hole they are no longer than a case may have them. On CAD faces they are finer than the base's: larger facets
+    may not follow the faces, which is refused.
+    """
+    geometry = scene.case.target.geometry
+    assert geometry is not None, "shots are thrown at it"
+    hole = isinstance(geometry, BoltHoleGeometry)
+    most = math.pi * geometry.diameter / LEAST_AROUND if hole else _own_facet_size(scene)
+    sizes = (share * SCATTERS[geometry.kind] * scene.shot.diameter for share in FACET_SIZES)
+    return [size for size in sizes if size < most * (1 - WRITTEN)]
+
+
+def _own_facet_size(scene: Scene) -> float:
+    assert scene.knobs.facet_size is not None, "shots are thrown at facets"
+    return scene.knobs.facet_size
 
 
 def _group_distance(scene: Scene) -> Sweep:
@@ -184,9 +206,14 @@ KNOBS: tuple[Knob, ...] = (
     Knob("group_distance", _groups_only, _group_distance),
     Knob("active_radius", _patch_only, _words("1", "1.5", "2", "3", "off", reference="off")),
     Knob("min_normal_speed", _patch_only, _min_normal_speed),
-    Knob("dem_time_step", _stepped_only, lambda scene: _falling(DEM_TIME_STEPS, scene.knobs.dem_time_step)),
+    Knob(
+        "dem_time_step",
+        _stepped_only,
+        lambda scene: _falling(DEM_TIME_STEPS, scene.knobs.dem_time_step),
+        chaotic=True,
+    ),
     Knob("contact_interval", _stepped_only, lambda scene: _falling(CONTACT_INTERVALS, scene.knobs.contact_interval)),
-    Knob("facet_size", _facets_missing, _facet_size),
+    Knob("facet_size", _facets_missing, _facet_size, chaotic=True),
     Knob("sides", _sides, _words("symmetric", "free")),
     Knob("preset", _everywhere, _words(*PRESETS)),
 )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from peenflow.errors import InputError
 from peenflow.scene import Scene
 from peenflow.study.knobs import KNOBS, Knob
-from peenflow.study.point import Point
+from peenflow.study.point import Kind, Point
 from peenflow.study.unsure import UNSURE
 
 Resolver = Callable[[Mapping[str, str]], Scene]
@@ -55,7 +55,7 @@ def plan(scene: Scene, resolver: Resolver, wanted: Sequence[str] | None) -> Plan
         asked = wanted is None or knob.name in wanted
         points += _of_knob(knob, scene) if asked else ()
         reference = knob.sweep(scene).reference
-        if reference is not None:
+        if reference is not None and not knob.chaotic:
             finest[f"accuracy.{knob.name}"] = reference
     points = _different(points, scene, resolver)
     for unsure in UNSURE:
@@ -73,7 +73,8 @@ def plan(scene: Scene, resolver: Resolver, wanted: Sequence[str] | None) -> Plan
 
 def _of_knob(knob: Knob, scene: Scene) -> list[Point]:
     key = f"accuracy.{knob.name}"
-    return [Point(knob.name, value, {**knob.beside, key: value}, "knob") for value in knob.sweep(scene).values]
+    kind: Kind = "stream" if knob.chaotic else "knob"
+    return [Point(knob.name, value, {**knob.beside, key: value}, kind) for value in knob.sweep(scene).values]
 
 
 def _different(points: Sequence[Point], scene: Scene, resolver: Resolver) -> list[Point]:

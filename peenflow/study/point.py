@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-Kind = Literal["base", "reference", "knob", "unsure"]
+Kind = Literal["base", "reference", "knob", "stream", "unsure"]
+"""`stream`: a knob whose every value throws another stream, as another seed does: chance, not only accuracy."""
 
 
 @dataclass(frozen=True, eq=False)

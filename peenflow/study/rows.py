@@ -22,7 +22,9 @@ class Row:
 
     point: Point
     accuracy: Mapping[str, Any]  # [accuracy] as it stood, keys and values as in the case file
-    errors: Mapping[str, float | None]  # `error_…`, against the reference; of what is unsure against the base
+    errors: Mapping[
+        str, float | None
+    ]  # `error_…`, against the reference; of streams and what is unsure against the base
     change: float | None  # of the profile from the base's: what this knob alone does
     figures: Mapping[str, float | None]
     cpu_s: float  # of all stages but the report, less compiling

@@ -108,7 +108,7 @@ def _rows(case: Case, planned: Plan, shop: Workshop, single: bool) -> tuple[Row,
     base, reference = (read(shop.place(point), single) for point in (planned.base, planned.reference))
     rows = []
     for point in (planned.base, planned.reference, *planned.points):
-        against = base if point.kind == "unsure" else reference
+        against = base if point.kind in ("stream", "unsure") else reference
         known = shop.finished(point)
         threads = known["threads"] if known else shop.threads
         rows.append(row(point, read(shop.place(point), single), against, base, _accuracy(case, point), threads))

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import reading
 import shot_on_plate
 from matplotlib.figure import Figure
 from parts import ROOT, Bench, Found, Part, Row, Table
@@ -131,7 +132,7 @@ def sweep(bench: Bench, share: float) -> Sweep:
     def each(what: str) -> np.ndarray:
         return np.array([value(hit, what, momentum) for hit in hits])
 
-    return Sweep(share, {what: each(what) for what in FIGURES}, shot_on_plate.cpu_seconds(results))
+    return Sweep(share, {what: each(what) for what in FIGURES}, reading.cost(results, "dem").cpu_s)
 
 
 def name_of(share: float) -> str:

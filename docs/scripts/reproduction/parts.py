@@ -109,9 +109,13 @@ def summary(results: Path) -> dict[str, Any]:
     return content
 
 
-def cpu_seconds(results: Path, stage: str) -> float:
-    """CPU time of a stage when it was last computed."""
-    return next(float(row["cpu_s"]) for row in summary(results)["ledger"] if row["stage"] == stage)
+def check(case: Path, *settings: str) -> dict[str, Any]:
+    """What `peenflow check CASE --json --set …` tells."""
+    words = [word for setting in settings for word in ("--set", setting)]
+    command = [sys.executable, "-P", "-m", "peenflow", "check", str(case), "--json", *words]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    content: dict[str, Any] = json.loads(done.stdout)
+    return content
 
 
 def store(found: Found, seconds: float, place: Path) -> None:

@@ -1,6 +1,6 @@
 """What a run left of a patch: its deck, its response, and (S11+S22)/2 by depth, read from the records themselves."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +19,8 @@ from peenflow.study.errors import Curve, profile_error
 ONE_IMPACT = ROOT / "docs" / "scripts" / "cases" / "one-impact"
 MPA, UM = 1e-6, 1e6
 NOTHING = 1e-9  # m
+SQUARE = 0.12e-3  # m, side of the square about the dent that means are over
+SHOWN = 300.0  # µm, depth of the pictures of stress
 
 
 @dataclass(frozen=True)
@@ -70,6 +72,16 @@ def read(results: Path, deck: Path | None = None) -> Peened:
 def settings(accuracy: Mapping[str, str]) -> list[str]:
     """Keys of [accuracy] as `--set` takes them."""
     return [f"accuracy.{key}={value}" for key, value in accuracy.items()]
+
+
+def least_from(tried: Iterable[float], error: Callable[[float], float], wish: float) -> float | None:
+    """The least of the values tried from which on the error stays within `wish`; None: none does."""
+    good = None
+    for value in sorted(tried, reverse=True):
+        if error(value) > wish:
+            break
+        good = value
+    return good
 
 
 def percent_off(found: Curve, against: Curve) -> float:

@@ -1,21 +1,20 @@
 """Section 4.2: what splitting, sampling, grouping and the far field save in time, memory and disk."""
 
-import json
-import subprocess
-import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import dumps
 import far_field
 import hole
+import numpy as np
 import reading
-from parts import ROOT, Bench, Found, Part, Row, Table, summary
-from peened import ONE_IMPACT, Peened, percent_off, read, settings
+from parts import Bench, Found, Part, Row, Table, check, summary
+from peened import ONE_IMPACT, percent_off, read
 
 TOGETHER, ONE_BY_ONE = "1.5", "1000"  # accuracy.group_distance, in shot diameters
 QUICK = ("accuracy.preset=draft", "dem.engine=event-driven", *hole.SETTINGS)
-MS, US = 1e3, 1e6
+MS, US, MM = 1e3, 1e6, 1e3
 
 
 def measure(bench: Bench) -> Found:
@@ -73,7 +72,12 @@ def grouped(bench: Bench) -> Saved:
         single.line("one after another", "–"),
         together.line(f"grouped, {TOGETHER} d apart", off),
     ]
-    title = "The bolt hole's patch (draft), its impacts grouped or not; the first line is reckoned, not run"
+    size = MM * reading.scene(hole.CASE, *QUICK).knobs.mesh_size
+    title = (
+        "The bolt hole's patch, its impacts grouped or not; the first line is reckoned, not run. Preset `draft` "
+        f"(elements of {size:.3g} mm) and the event-driven engine, whose stream is another than LIGGGHTS' of the sections "
+        "above"
+    )
     return Saved(group_rows(together, single, spread, off), Table(title, head, lines))
 
 
@@ -99,7 +103,8 @@ def group_rows(together: Turns, single: Turns, spread: Turns, off: float) -> lis
             "fewer",
             together.starts / single.starts,
             "",
-            f"{together.starts} instead of {single.starts} for the impacts on the hole's patch",
+            f"{together.starts} instead of {single.starts} for the impacts on the hole's patch, of the event-driven "
+            "engine's stream",
         ),
         Row(
             "FE steps, grouped over one impact after another",
@@ -126,64 +131,57 @@ def group_rows(together: Turns, single: Turns, spread: Turns, off: float) -> lis
 def patches(bench: Bench) -> Saved:
     """One impact: the mesh with a far field against supported ones, by error and elements (runs of that section)."""
     there = Bench(bench.work.parent / "far_field", bench.pictures)
-    far = _patch(there, "far-field", far_field.PAPER)
-    deep = _patch(there, "far-field", far_field.DEEP)
-    wish = _error(far, deep)
-    tried = {}
-    for depth in (*(depth for depth in far_field.DEPTHS if depth >= far_field.PAPER), far_field.DEEP):
-        tried[depth] = _patch(there, "fixed", depth)
-        if _error(tried[depth], deep) <= wish:
-            break
-    depth = max(tried)
-    lines = [[f"far field, {far_field.PAPER:g} mm", len(far.deck.patch.hexes), far.cpu, wish]]
-    lines += [
-        [f"supported, {deep_as:g} mm", len(one.deck.patch.hexes), one.cpu, _error(one, deep)]
-        for deep_as, one in tried.items()
-    ]
-    sizes = {
-        boundary: checked(f"accuracy.depth={at} mm", f"accuracy.boundary={boundary}")
-        for boundary, at in (("far-field", far_field.PAPER), ("fixed", depth))
-    }
+    far, deep = (far_field.run(there, "far-field", depth) for depth in (far_field.PAPER, far_field.DEEP))
+    fixed = {depth: far_field.run(there, "fixed", depth) for depth in far_field.DEPTHS}
+    wish = far_field.off(far, deep)
+    errors = {depth: far_field.off(one, deep) for depth, one in fixed.items()}
+    depth = depth_for(errors, wish)
+    one, holes = (
+        [elements(case, far_field.PAPER, "far-field"), elements(case, depth, "fixed")]
+        for case in (ONE_IMPACT, hole.CASE)
+    )
     rows = [
         Row(
             "elements of one impact's patch with far field over supported, at equal error",
             "avoids modelling inner material",
-            len(far.deck.patch.hexes) / len(tried[depth].deck.patch.hexes),
+            one[0] / one[1],
             "",
-            f"{far_field.PAPER:g} mm with a far field errs by {wish:.1f} % rms; supported it takes {depth:g} mm",
+            f"{far_field.PAPER:g} mm with a far field errs by {wish:.2f} % rms; supported it takes {depth:.2f} mm, "
+            f"interpolated between the depths of the table: {one[0]:,} instead of {one[1]:,} elements",
         ),
         Row(
-            "elements of the bolt hole's patch, likewise",
+            "elements of the bolt hole's patch, at these depths",
             None,
-            sizes["far-field"] / sizes["fixed"],
+            holes[0] / holes[1],
             "",
-            f"{sizes['far-field']:.0f} instead of {sizes['fixed']:.0f}: layers grow thicker with depth, so that inner "
-            "material costs little already",
+            f"{holes[0]:,} instead of {holes[1]:,}: layers grow thicker with depth, so that inner material costs little "
+            "already",
         ),
     ]
-    head = ["bottom", "elements", "CPU [s]", "rms error [%]"]
-    return Saved(
-        rows, Table(f"One impact by what bounds the patch, against {far_field.DEEP:g} mm of depth", head, lines)
+    lines = [[f"far field, {far_field.PAPER:g} mm", len(far.deck.patch.hexes), far.cpu, wish]]
+    lines += [[f"supported, {at:g} mm", len(run.deck.patch.hexes), run.cpu, errors[at]] for at, run in fixed.items()]
+    title = (
+        f"One impact by what bounds the patch, against {far_field.DEEP:g} mm of depth with a far field, elements of "
+        f"{far_field.MESH}"
     )
+    return Saved(rows, Table(title, ["bottom", "elements", "CPU [s]", "rms error [%]"], lines))
 
 
-def _patch(bench: Bench, boundary: str, depth: float) -> Peened:
-    accuracy = {"mesh_size": far_field.MESH, "depth": f"{depth} mm", "boundary": boundary}
-    return read(bench.run(ONE_IMPACT, f"{boundary}-{depth:g}", *settings(accuracy), until="solve"))
+def depth_for(errors: Mapping[float, float], wish: float) -> float:
+    """Depth [mm] at which the error [%], by depth, has fallen to `wish`: its logarithm is linear between depths."""
+    depths = sorted(errors)
+    for shallow, deep in zip(depths, depths[1:], strict=False):
+        above, below = errors[shallow], errors[deep]
+        if below <= wish <= above:
+            return shallow + (deep - shallow) * float(np.log(above / wish) / np.log(above / below))
+    return depths[0] if errors[depths[0]] < wish else depths[-1]
 
 
-def _error(one: Peened, deep: Peened) -> float:
-    """The larger of those on the axis and of the mean about the dent [%]."""
-    square = far_field.SQUARE
-    return max(percent_off(one.under(), deep.under()), percent_off(one.mean(square), deep.mean(square)))
-
-
-def checked(*given: str) -> float:
-    """Elements of the bolt hole's patch, by `peenflow check --json`."""
-    words = [word for setting in given for word in ("--set", setting)]
-    command = [sys.executable, "-P", "-m", "peenflow", "check", str(hole.CASE), "--json", *words]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    return float(json.loads(done.stdout)["fe"]["elements"])
+def elements(case: Path, depth: float, boundary: str) -> int:
+    """Of the case's patch at a depth [mm], by `peenflow check`."""
+    given = (f"accuracy.depth={depth:.4f} mm", f"accuracy.boundary={boundary}")
+    size = (f"accuracy.mesh_size={far_field.MESH}",) if case == ONE_IMPACT else ()
+    return int(check(case, *given, *size)["fe"]["elements"])
 
 
 PART = Part(

@@ -4,12 +4,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import reading
 from parts import Bench
 
-from peenflow.case.directory import read_case
-from peenflow.dem import stage
-from peenflow.pipeline import manifest
-from peenflow.resolve import resolve
 from peenflow.scene import Scene
 
 HEIGHT = 2.0  # mm, of the nozzle over the plate
@@ -54,9 +51,9 @@ class Hit:
         return float(self.time[last] + falling * self.step)
 
     @property
-    def figures(self) -> tuple[float, float, float]:
-        """Largest force [N], duration [s], impulse [N s]."""
-        return self.peak, self.duration, self.impulse
+    def ended(self) -> float:
+        """When the overlap ends [s], half a step after it was last seen."""
+        return float(self.time[-1]) + self.step / 2
 
     @property
     def turn(self) -> float:
@@ -95,19 +92,12 @@ def run(bench: Bench, name: str, throw: Throw) -> Path:
 
 def scene(bench: Bench, name: str) -> Scene:
     """The case of a run, resolved."""
-    return resolve(*read_case(bench.work / "cases" / name))
-
-
-def cpu_seconds(results: Path) -> float:
-    """Of the `dem` stage, LIGGGHTS and the reading of its contacts."""
-    ran = manifest.read(results, "dem")
-    assert ran is not None
-    return ran.cost.cpu_s
+    return reading.scene(bench.work / "cases" / name)
 
 
 def hits(results: Path, mass: float) -> list[Hit]:
     """Contacts of the shots of `mass` [kg], one each."""
-    contacts = stage.load(results)
+    contacts = reading.record(results, "dem")
     found = []
     for shot in np.unique(contacts.shot).tolist():
         rows = np.flatnonzero(contacts.shot == shot)

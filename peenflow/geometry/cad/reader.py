@@ -13,10 +13,10 @@ from peenflow.geometry.cad.faces import Faces
 from peenflow.geometry.cad.facets import facets
 from peenflow.geometry.cad.march import Reach, march
 from peenflow.geometry.cad.solid import blade_root, read_step
+from peenflow.geometry.cad.survey import MEMORY
 from peenflow.geometry.gmsh_session import gmsh_model
 
 MM = 1e3  # in a metre
-MEMORY = 2**32  # B of this process, so that no file takes the machine's: good ones need a tenth of it
 
 
 def main(question: Path, answer: Path) -> int:
@@ -25,7 +25,7 @@ def main(question: Path, answer: Path) -> int:
     OpenCASCADE writes to standard output, in colours.
     """
     asked = json.loads(question.read_text())
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    _bound_memory()
     try:
         found = read(asked["part"], asked["wish"])
     except InputError as error:
@@ -33,6 +33,13 @@ def main(question: Path, answer: Path) -> int:
         return error.exit_status
     np.savez(answer, **found)
     return 0
+
+
+def _bound_memory() -> None:
+    """By `MEMORY`, or by less where the machine has set less already (`ulimit -v`)."""
+    allowed, _ = resource.getrlimit(resource.RLIMIT_AS)
+    most = MEMORY if allowed == resource.RLIM_INFINITY else min(MEMORY, allowed)
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
 def read(part: dict[str, Any], wish: dict[str, Any]) -> dict[str, Any]:

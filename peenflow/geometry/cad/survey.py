@@ -20,6 +20,7 @@ from peenflow.geometry.chart import Chart
 
 TIME_LIMIT = 120  # s
 LARGEST = 2**28  # B of a STEP file: a part of some 100,000 faces
+MEMORY = 2**32  # B of the process, so that no file takes the machine's: good ones need a tenth of it
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # more take room by the gigabyte on large machines
 STEP_HEADER = b"ISO-10303-21"
 
@@ -122,9 +123,13 @@ def _ask(part: StepFile | BladeRoot, question: Path, answer: Path) -> None:
         raise InputError(
             f"The CAD library {_ended(child.returncode)} on {named}"
             + (f" ({said[-1]})" if said else "")
-            + ". Heal the part in CAD and export it again."
+            + ". Heal the part in CAD, or simplify it to what is peened: the reader has no more than "
+            f"{MEMORY / 2**30:.0f} GiB. Then export it again."
         )
 
 
 def _ended(status: int) -> str:
-    return f"was killed by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
+    if status >= 0:
+        return f"ended with status {status}"
+    known = {each.value: each.name for each in signal.Signals}  # not all of real time have names
+    return f"was killed by {known.get(-status, f'signal {-status}')}"

@@ -69,6 +69,15 @@ def test_a_stream_has_its_knobs_and_given_impacts_have_not():
     assert left_out["depth"] == "the patch is as deep as the plate"
 
 
+def test_what_throws_another_stream_is_set_apart_and_no_reference():
+    """Its error against one run would be chance's."""
+    hole = planned("bolt-hole")
+    kinds = {point.knob: point.kind for point in hole.points}
+    assert kinds["dem_time_step"] == kinds["facet_size"] == "stream"
+    assert kinds["contact_interval"] == kinds["mesh_size"] == "knob"
+    assert not {"accuracy.dem_time_step", "accuracy.facet_size"} & set(hole.reference.settings)
+
+
 def test_the_pressures_shape_is_studied_under_pressure_loads():
     shapes = ["uniform", "octagon", "ellipse", "growing-uniform", "growing-ellipse"]
     found = planned("plate", ("pressure_shape",))
@@ -86,7 +95,6 @@ def test_what_two_knobs_come_to_alike_is_run_once():
 def test_facets_are_varied_where_their_chords_stand_out_of_a_round_wall():
     hole = planned("bolt-hole")
     assert values(hole, "facet_size") == ["1.067 mm", "0.7112 mm", "0.5334 mm", "0.3556 mm"]
-    assert hole.reference.settings["accuracy.facet_size"] == "0.3556 mm"
     narrow = planned("bolt-hole", None, "target.geometry.diameter=3.6 mm", "deflector.diameter=1.5 mm")
     assert values(narrow, "facet_size")[0] == "0.7112 mm"
     assert planned("plate").left_out["facet_size"] == "facets of any size follow a plane"
