@@ -79,7 +79,7 @@ def _resolved(case: Case, directory: Path) -> Scene:
         flight=arrival.flight,
         slant=slant,
         normal_speed=_normal_speed(case.deflector, arrival.speed, slant, restitution),
-        met=partial(surfaces.met, surface),
+        plane_met=partial(surfaces.met, surface),
         repeats=_repeats(case, thrown, arrival, predicted.radius),
     )
     effects = decide(situation, PRESETS[case.accuracy.preset].tolerance)

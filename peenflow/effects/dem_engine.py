@@ -4,10 +4,10 @@ import math
 
 from peenflow.case.model import BoltHoleGeometry
 from peenflow.effects.effect import Situation
+from peenflow.effects.lingering import lingering_shots
 from peenflow.scene import EngineChoice
 
 OVERLAP = 20.0  # contact times between two contacts of a shot, below which hard spheres are no model
-LINGERING = 0.6  # share of the shots that stay in a hole as slow ricochets: 110–140 of 200, measured with LIGGGHTS
 PACKED = 0.6  # share of the hole filled at which shots touch for good (random packing 0.64)
 
 
@@ -18,7 +18,7 @@ def choose(situation: Situation) -> EngineChoice | None:
 
     - in a jet, against rebounding shots of number density n = rate/(e v A): 1/(n π d² (1+e) v);
     - in a hole, among the shots that linger there, of volume fraction φ: d/(6√2 φ χ)/(e v), χ = (1−φ/2)/(1−φ)³
-      (Chapman and Cowling; Carnahan and Starling 1969).
+      (Chapman and Cowling; Carnahan and Starling 1969); φ = 0 without a rod.
 
     Contacts last as long as the predicted one of the largest shot. Below 20 contact times between contacts LIGGGHTS is
     taken, which follows the contacts through.
@@ -49,13 +49,13 @@ def _free_time_in_jet(situation: Situation) -> float:
 
 
 def _free_time_in_hole(situation: Situation) -> float:
-    """[s], at the end of the exposure; infinite where there is no hole."""
+    """[s], at the end of the exposure; infinite where no shots linger in a hole."""
     case = situation.case
     hole = case.target.geometry
-    if not isinstance(hole, BoltHoleGeometry) or case.exposure is None:
+    there = lingering_shots(situation).last
+    if not isinstance(hole, BoltHoleGeometry) or there == 0:
         return math.inf
-    thrown = sum(map(situation.thrown.per_second, case.nozzle)) * case.exposure.duration
-    metal = LINGERING * thrown * situation.thrown.mass / situation.thrown.shot.density
+    metal = there * situation.thrown.mass / situation.thrown.shot.density
     filled = metal / (math.pi / 4 * hole.diameter**2 * hole.length)
     if filled >= PACKED:
         return 0.0

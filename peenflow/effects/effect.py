@@ -26,7 +26,7 @@ class Situation:
     flight: float | None  # m, from the nozzle to what the shots meet first; None: nothing flies
     normal_speed: float  # m/s, of the fastest first hits on the target
     slant: float  # tangential over normal speed of the hits, the most oblique ones'
-    met: Callable[[np.ndarray, np.ndarray], Plane | None]  # what a flight from a point (3,) along a way (3,) meets
+    plane_met: Callable[[np.ndarray, np.ndarray], Plane | None]  # by a flight from a point (3,) along (3,)
     repeats: float  # share of the dented area that was dented before
 
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from peenflow.effects.effect import Situation
 from peenflow.geometry.plane import Plane
 
 PATHS, PLACES = 32, 60  # of a jet that are followed, and on each of them per leg
+APPROACH = 1e-9  # cosine to a face's normal, below which a jet flies along it
 LONGEST = 3.0  # of the axis' way, beyond which a path at the rim of a wide jet is not followed
 
 
@@ -52,6 +53,18 @@ class Leg:
 
 
 @dataclass(frozen=True)
+class Flight:
+    """Of a nozzle's shots that meet no other, along its axis."""
+
+    legs: tuple[Leg, ...]  # from the nozzle, off the rod's face if they meet it, to the target; the last may miss that
+    back: Leg | None  # off the target; None: they miss it
+
+    def all_legs(self) -> tuple[Leg, ...]:
+        """With the one off the target."""
+        return self.legs if self.back is None else (*self.legs, self.back)
+
+
+@dataclass(frozen=True)
 class Stretch:
     """A leg with places on it where shots are on their way."""
 
@@ -61,11 +74,8 @@ class Stretch:
     age: np.ndarray  # (PATHS, PLACES) s, since the nozzle
 
 
-def of_nozzle(situation: Situation, nozzle: Nozzle) -> tuple[Leg, ...]:
-    """The legs of a nozzle's shots that meet no other, along its axis: to the first hit on the target, and back.
-
-    The last one begins at the target, unless the jet misses that.
-    """
+def of_nozzle(situation: Situation, nozzle: Nozzle) -> Flight:
+    """To the first hit on the target, and back."""
     direction = np.asarray(nozzle.direction, float)
     direction /= np.linalg.norm(direction)
     start = np.asarray(nozzle.position, float)
@@ -79,48 +89,51 @@ def of_nozzle(situation: Situation, nozzle: Nozzle) -> tuple[Leg, ...]:
         radius=nozzle.diameter / 2,
         widening=math.tan(nozzle.cone / 2),
     )
-    legs = [jet]
-    if situation.case.deflector is not None:
-        legs = _off(legs, _face(situation.case.deflector, start, direction), situation)
-    wall = situation.met(legs[-1].start.point, legs[-1].velocity)
-    return tuple(legs if wall is None else _off(legs, wall, situation))
+    face = None if situation.case.deflector is None else _face(situation.case.deflector, start, direction)
+    wall = situation.plane_met(start, jet.velocity)
+    before: tuple[Leg, ...] = ()
+    last = jet
+    if face is not None and (wall is None or float(wall.height(face.point)) > 0):
+        ended, last = _off(jet, face, situation)
+        before, wall = (ended,), situation.plane_met(face.point, last.velocity)
+    if wall is None:
+        return Flight((*before, last), None)
+    ended, back = _off(last, wall, situation)
+    return Flight((*before, ended), back)
 
 
-def _face(rod: Deflector, start: np.ndarray, direction: np.ndarray) -> Plane:
-    """Of the tip in the middle of its travel, where the jet's axis meets it; of a cone, the side at its azimuth."""
+def _face(rod: Deflector, start: np.ndarray, direction: np.ndarray) -> Plane | None:
+    """Of the tip in the middle of its travel, where the jet's axis meets it; None where it does not come down on it.
+
+    Of a cone, the side at the rod's azimuth.
+    """
     normal = np.array(
         [math.cos(rod.angle) * math.cos(rod.azimuth), math.cos(rod.angle) * math.sin(rod.azimuth), math.sin(rod.angle)]
     )
     tip = Plane(np.array([0.0, 0.0, (rod.travel.start + rod.travel.to) / 2]), normal)
-    closing = float(direction @ normal)
-    way = -float(tip.height(start)) / closing if closing else 0.0
-    return Plane(start + way * direction, normal)
+    height, closing = float(tip.height(start)), -float(direction @ normal)
+    if height <= 0 or closing <= APPROACH:
+        return None
+    return Plane(start + height / closing * direction, normal)
 
 
-def _off(legs: list[Leg], plane: Plane, situation: Situation) -> list[Leg]:
-    """The legs, the last one ended by a plane, and the one off it: restitution along the normal, friction across."""
-    last, e = legs[-1], situation.restitution
+def _off(last: Leg, plane: Plane, situation: Situation) -> tuple[Leg, Leg]:
+    """A leg ended by a plane, and the one off it: restitution along the normal, friction across."""
+    e = situation.restitution
     approach = -float(last.velocity @ plane.normal)
     along = last.velocity + approach * plane.normal
     slip = float(np.linalg.norm(along))
     lost = min(STICKING * slip, situation.case.dem.friction * (1 + e) * approach)
     kept = along * (1 - lost / slip) if slip > 0 else along
-    ended = Leg(last.start, last.velocity, last.density, plane, last.before, last.radius, last.widening)
-    off = Leg(
-        start=plane,
-        velocity=kept + e * approach * plane.normal,
-        density=last.density / e,  # what comes leaves, more slowly along the normal
-        end=None,
-        before=ended,
-        radius=last.radius,
-        widening=last.widening,
-    )
-    return [*legs[:-1], ended, off]
+    ended = replace(last, end=plane)
+    # what comes leaves, more slowly along the normal
+    velocity, density = kept + e * approach * plane.normal, last.density / e
+    return ended, replace(ended, start=plane, velocity=velocity, density=density, end=None, before=ended)
 
 
-def walk(flight: tuple[Leg, ...]) -> Iterator[Stretch]:
-    """The legs up to the target, all but the last."""
-    jet = flight[0]
+def walk(flight: Flight) -> Iterator[Stretch]:
+    """The legs up to the target; not one on which shots fly on for ever."""
+    jet = flight.legs[0]
     axis = jet.start.normal
     across = np.cross(np.eye(3)[np.argmin(np.abs(axis))], axis)
     across /= np.linalg.norm(across)
@@ -130,8 +143,9 @@ def walk(flight: tuple[Leg, ...]) -> Iterator[Stretch]:
     rim *= np.sqrt(number / PATHS)[:, None]
     start, age = jet.start.point + jet.radius * rim, np.zeros(PATHS)
     velocity = jet.velocity + jet.widening * float(np.linalg.norm(jet.velocity)) * rim
-    for leg in flight[:-1]:
-        assert leg.end is not None, "the last leg alone goes on"
+    for leg in flight.legs:
+        if leg.end is None:
+            return
         if leg.before is not None:
             velocity = np.broadcast_to(leg.velocity, (PATHS, 3))
         time = _until(leg.end, start, velocity)

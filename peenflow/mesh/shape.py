@@ -9,8 +9,8 @@ from peenflow.mesh.stage import Inputs, grid_lines
 PLACES = 5  # along either axis of the fine zone, at which elements are looked at
 # Flatness and scaled Jacobian beyond which `told` warns. A hit of 62.5 m/s on Inconel 718, two elements in a dent's
 # radius: elements 2 times as wide as thick make a dent 1 % deeper than cubes do, 3 times 4 % shallower, 5 times 22 %
-# (four elements: 0.6 and 4 % shallower); a scaled Jacobian of 0.9 makes it 3 % shallower, 0.8 8 %, 0.7 16 %. No case and
-# no CAD part is known that comes below 0.9: grids that follow the curvature get flat first. It is here lest one does.
+# (four elements: 0.6 and 4 % shallower); a scaled Jacobian of 0.9 makes it 3 % shallower, 0.8 8 %, 0.7 16 %.
+# No case and no CAD part is known that comes below 0.9, only a grid along a saddle's straight lines, made for the test.
 FLATTEST, MOST_SHEARED = 2.5, 0.9
 
 # A hexahedron's corners, the upper face first, each with its two neighbours along the surface and that in depth, in the

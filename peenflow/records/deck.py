@@ -64,7 +64,8 @@ class Spheres:
 class PressureLoads:
     """Pressure patches that follow the surface, one a load, in the patch frame.
 
-    p(r, t) = peak[i]·history(τ)·shape(r/a), a = radius[i]·growth(τ), τ = (t − t_start[i])/duration[i].
+    p(r, t) = peak[i]·history(τ)·shape(r/a), a = radius[i]·growth(τ), τ = (t − t_start[i])/duration[i]; force over
+    undeformed area.
     """
 
     point: Annotated[np.ndarray, of("m", "centre on the undeformed surface", "(s, 3)")]

@@ -154,8 +154,10 @@ def _facet_sizes(scene: Scene) -> list[float]:
     """
     geometry = scene.case.target.geometry
     assert geometry is not None, "shots are thrown at it"
-    hole = isinstance(geometry, BoltHoleGeometry)
-    most = math.pi * geometry.diameter / LEAST_AROUND if hole else _own_facet_size(scene)
+    if isinstance(geometry, BoltHoleGeometry):
+        most = math.pi * geometry.diameter / LEAST_AROUND
+    else:
+        most = _own_facet_size(scene)
     sizes = (share * SCATTERS[geometry.kind] * scene.shot.diameter for share in FACET_SIZES)
     return [size for size in sizes if size < most * (1 - WRITTEN)]
 

@@ -27,7 +27,7 @@ class Row:
     ]  # `error_…`, against the reference; of streams and what is unsure against the base
     change: float | None  # of the profile from the base's: what this knob alone does
     figures: Mapping[str, float | None]
-    cpu_s: float  # of all stages but the report, less compiling
+    cpu_s: float  # of all stages but the report, less compiling, which takes one thread
     wall_s: float  # of all stages, likewise
     updates: float  # element updates of solve and calibrate
     solver_wall_s: float  # of the stages that made them

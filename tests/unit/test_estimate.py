@@ -72,15 +72,40 @@ def test_finer_costs_more() -> None:
 @pytest.mark.parametrize(
     ("setting", "expected"),
     [
-        ("accuracy.dem_time_step=0.4", "accuracy.dem_time_step is 0.4 of the Rayleigh step"),
         ("accuracy.hourglass=0.5", "hourglass control will hold some"),
         ("accuracy.mesh_size=0.05 mm", "do not resolve a dent"),
-        ("accuracy.facet_size=0.3 mm", "accuracy.facet_size is 0.3 mm, shorter than the largest shot's diameter"),
         ("exposure.duration=0.06 ms", "less than one impact is expected on the patch"),
     ],
 )
 def test_warns(setting: str, expected: str) -> None:
     assert any(expected in warning for warning in estimate(scene("plate", setting))["warnings"])
+
+
+STEPPED = {
+    "accuracy.dem_time_step=0.4": "accuracy.dem_time_step is 0.4 of the Rayleigh step",
+    "accuracy.facet_size=0.3 mm": "accuracy.facet_size is 0.3 mm, shorter than the largest shot's diameter, 0.356 mm",
+}
+
+
+@pytest.mark.parametrize(("setting", "expected"), STEPPED.items())
+def test_warns_of_what_liggghts_alone_has(setting: str, expected: str) -> None:
+    by = {name: estimate(scene("bolt-hole", setting, f"dem.engine={name}")) for name in ("liggghts", "event-driven")}
+    found = {name: [expected in warning for warning in each["warnings"]] for name, each in by.items()}
+    assert any(found["liggghts"])
+    assert not any(found["event-driven"])
+
+
+def test_facets_of_any_size_follow_a_plate() -> None:
+    found = estimate(scene("plate", "accuracy.facet_size=0.3 mm", "dem.engine=liggghts"))
+    assert not any("facet_size" in warning for warning in found["warnings"])
+
+
+def test_edges_on_cad_faces_scatter_below_the_size_that_is_asked_for() -> None:
+    by = {size: ("dem.engine=liggghts", f"accuracy.facet_size={size} mm") for size in ("0.5", "0.57")}
+    found = {size: estimate(scene("blade-fillet", *settings))["warnings"] for size, settings in by.items()}
+    expected = "accuracy.facet_size is 0.5 mm, with edges down to 0.312 mm, shorter than the largest shot's diameter"
+    assert any(expected in warning and "give 0.569 mm or more" in warning for warning in found["0.5"])
+    assert not any("facet_size" in warning for warning in found["0.57"])
 
 
 def test_warns_of_hard_spheres_in_a_dense_jet() -> None:

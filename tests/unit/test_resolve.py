@@ -160,6 +160,13 @@ def test_sizes_do_not_scatter_where_the_effect_is_off() -> None:
     assert list(off.thrown.shares) == [1.0]
 
 
+def test_facets_are_sized_by_the_case_alone() -> None:
+    """CAD faces are meshed before it is decided whether sizes scatter."""
+    off, mixed = scene("bolt-hole", WIDE, "effects.size_spread=off"), scene("bolt-hole", WIDE)
+    assert off.shot.diameter < mixed.shot.diameter
+    assert off.knobs.facet_size == mixed.knobs.facet_size == pytest.approx(1.35 * mixed.shot.diameter)
+
+
 def test_a_mass_rate_is_shared_among_shots_of_the_mean_mass() -> None:
     flow = "nozzle.0.mass_rate=1 kg/min"
     equal, mixed = (scene("plate", flow, *more) for more in ([], [WIDE]))

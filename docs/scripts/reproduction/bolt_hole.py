@@ -4,7 +4,6 @@ import json
 import sys
 import tempfile
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import hole
 import numpy as np
 import peened
 import reading
+from lone_impact import APART, PAPER_FACTOR, Alone, load_factors, pick
 from matplotlib.figure import Figure
 from parts import ROOT, Bench, Found, Part, Row, Table, summary
 from scene_picture import Around, scene_picture
@@ -19,42 +19,25 @@ from scene_picture import Around, scene_picture
 from peenflow.dem import bodies
 from peenflow.dem.engine import Stream
 from peenflow.loads.placement import HARD
-from peenflow.loads.pressure import fe_forces, look_up_table
 from peenflow.records.calibration import Calibration
-from peenflow.records.impacts import Impacts
 from peenflow.results import drawing, patch_plots, profiles
-from peenflow.results.coverage import calibrated_dents, covered
+from peenflow.results.coverage import FULL, calibrated_dents, covered
 from peenflow.results.evaluation import Peening
-from peenflow.results.profiles import Profile
+from peenflow.results.profiles import Profile, Residual
 from peenflow.results.units import display
 from peenflow.study.errors import profile_error
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 from dem_statistics import by_liggghts  # LIGGGHTS with a dump of who meets whom
 
-PAPER_FACTOR = 0.7422
 NEAR = 0.05  # of the paper's factor: as good as it
-APART = 1.0  # shot diameters to the next impact, from which one counts as alone
 ALONG = 2  # coordinate of the hole's axis
 LOSSES = {  # what a shot loses at the rod decides how hard it hits the wall
     "calibrated": ("dem.restitution=calibrated",),
     "frictionless": ("dem.friction=0",),
 }
-MPA, UM, MM = 1e-6, 1e6, 1e3
+MPA, UM, MM, MS = 1e-6, 1e6, 1e3, 1e3
 LENGTH = display(("MPa", "mm")).length
-
-
-@dataclass(frozen=True)
-class Alone:
-    """The impact under which Figure 20 is drawn."""
-
-    row: int  # of the impacts
-    uv: np.ndarray  # m, from the patch's centre
-    factor: float  # its force over the calibration's at the nozzle's speed
-    apart: float  # m, to the next impact
-    speed: float  # m/s, normal
-    angle: float  # deg, from the surface
-    candidates: int
 
 
 def measure(bench: Bench) -> Found:
@@ -67,14 +50,15 @@ def measure(bench: Bench) -> Found:
     patch = peening.patch
     under = profiles.weighted(patch, peening.response, profiles.below(patch, alone.uv))
     drawing.save(partial(stresses, under, alone, at_nozzle, alike), bench.pictures / "hole-stress.svg")
-    drawing.save(partial(patch_plots.impact_map, peening, LENGTH), bench.pictures / "hole-impacts.svg")
+    drawing.save(partial(impacts_drawn, peening, alone), bench.pictures / "hole-impacts.svg")
     undrawn = scene_picture(peening, around(stream), bench.pictures / "hole.png")
     if undrawn is not None:
         raise SystemExit(f"hole.png: {undrawn}")
     met, lost = collided(stream), losses(bench, results, calibration)
     return Found(
         rows=[
-            *stream_rows(figures, met),
+            *thrown_rows(figures, stream),
+            *wall_rows(figures, met),
             *coverage_rows(peening, calibration, figures),
             *stress_rows(under, alone, at_nozzle, alike),
             frictionless(lost),
@@ -82,7 +66,7 @@ def measure(bench: Bench) -> Found:
         pictures={
             "hole.png": "Figures 16 and 17. Above: half of the hole, the nozzle (blue) with its jet, the rod at its "
             "start and all impacts; the orange line bounds the patch of finite elements. Below: the patch's mesh.",
-            "hole-impacts.svg": "Figure 21. Impacts on the unrolled hole.",
+            "hole-impacts.svg": "Figure 21. Impacts on the unrolled hole; the ring is around the one of Figure 20.",
             "hole-stress.svg": f"Figure 20. Residual stress under the single impact {alone.uv[0] * MM:+.2f} mm along "
             f"and {alone.uv[1] * MM:+.2f} mm around the hole from the patch's centre, and under single shots onto a "
             "plane.",
@@ -101,36 +85,6 @@ def told(alone: Alone) -> str:
         "yield stress it does not state, so that only the shape can be compared with it; the single shots beside it "
         "stand for what its section 4.1 calls the observed phenomenon."
     )
-
-
-def pick(peening: Peening, calibration: Calibration) -> Alone:
-    """Of the impacts that stand alone on the patch, the one with the load factor nearest to the paper's."""
-    impacts, uv = peening.impacts, peening.uv()
-    borne = np.flatnonzero(impacts.on_patch)
-    between = np.linalg.norm(uv[borne][:, None] - uv[borne][None], axis=-1)
-    np.fill_diagonal(between, np.inf)
-    apart = between.min(axis=1)
-    alone = np.flatnonzero(apart >= APART * calibration.shot_diameter)
-    if not alone.size:
-        alone = np.array([np.argmax(apart)])
-    factor = load_factors(impacts, calibration)[borne]
-    best = int(alone[np.argmin(np.abs(factor[alone] - PAPER_FACTOR))])
-    row = int(borne[best])
-    return Alone(
-        row=row,
-        uv=uv[row],
-        factor=float(factor[best]),
-        apart=float(apart[best]),
-        speed=float(impacts.normal_speed[row]),
-        angle=float(np.degrees(impacts.angle[row])),
-        candidates=len(alone),
-    )
-
-
-def load_factors(impacts: Impacts, calibration: Calibration) -> np.ndarray:
-    """Force (n,) of each impact over the calibrated one at the nozzle's speed, both in the FE model."""
-    table = look_up_table(calibration)
-    return np.asarray(fe_forces(impacts, table) / table.force[-1])
 
 
 def single(bench: Bench, results: Path, speed: float) -> Profile:
@@ -152,16 +106,19 @@ def single(bench: Bench, results: Path, speed: float) -> Profile:
 
 
 def collided(stream: Stream) -> float:
-    """Share of the shots on the wall that met another shot before, in the same run with a dump of who meets whom."""
+    """Share of the shots on the wall that met another shot before, in a second run with a dump of who meets whom."""
     with tempfile.TemporaryDirectory(prefix="peenflow-") as folder:
         return by_liggghts(stream, Path(folder), ALONG).collided_before
 
 
-def stream_rows(figures: Mapping[str, dict[str, float]], met: float) -> list[Row]:
-    """The stream in numbers."""
-    scene, dem, kept = hole.scene(), figures["dem"], figures["impacts"]
+def thrown_rows(figures: Mapping[str, dict[str, float]], stream: Stream) -> list[Row]:
+    """What the nozzle throws."""
+    scene, dem = hole.scene(), figures["dem"]
     (nozzle,) = scene.case.nozzle
     rate = scene.thrown.per_second(nozzle)
+    assert stream.rod is not None
+    travel = abs(stream.rod.stop - stream.rod.start)
+    gone = min(stream.rod.speed * scene.case.exposure.duration, travel)
     return [
         Row(
             "rate of delivery",
@@ -171,7 +128,12 @@ def stream_rows(figures: Mapping[str, dict[str, float]], met: float) -> list[Row
             f"a mass flow of {60 * rate * scene.thrown.shot.mass:.3g} kg/min; `nozzle.mass_rate` may give that instead",
         ),
         Row(
-            "shots thrown", None, dem["shots"], "", f"in {scene.case.exposure.duration * 1e3:g} ms, one pass of the rod"
+            "shots thrown",
+            None,
+            dem["shots"],
+            "",
+            f"in {scene.case.exposure.duration * MS:g} ms, while the rod goes {gone * MM:g} mm of its "
+            f"{travel * MM:g} mm",
         ),
         Row(
             "shots that met the wall",
@@ -180,7 +142,21 @@ def stream_rows(figures: Mapping[str, dict[str, float]], met: float) -> list[Row
             "",
             f"the other {dem['shots'] - dem['shots_hitting']} left the hole, then the domain, without touching it",
         ),
-        Row("contacts with the rod", None, dem["deflector_contacts"], "", "it turns the shots onto the wall"),
+    ]
+
+
+def wall_rows(figures: Mapping[str, dict[str, float]], met: float) -> list[Row]:
+    """What becomes of the shots; `met` is the share of those on the wall that met another before."""
+    dem, kept, effects = figures["dem"], figures["impacts"], hole.scene().effects
+    return [
+        Row(
+            "contacts with the rod",
+            None,
+            dem["deflector_contacts"],
+            "",
+            f"{dem['deflector_contacts'] / dem['shots']:.1f} a shot thrown: one that comes back from the wall may meet "
+            "the rod again",
+        ),
         Row(
             "hits on the wall",
             None,
@@ -194,8 +170,9 @@ def stream_rows(figures: Mapping[str, dict[str, float]], met: float) -> list[Row
             '"there can be impacts between shots as well"',
             100 * met,
             "%",
-            "of those on the wall, from LIGGGHTS' own pair contacts in the same run; `peenflow check` estimates "
-            f"{100 * scene.effects['shot_collisions'].estimate:.0f} % beforehand (effect `shot_collisions`)",
+            "of those on the wall, from LIGGGHTS' own pair contacts in a second run of the same stream; `peenflow "
+            "check` estimates "
+            f"{100 * effects['shot_collisions'].estimate:.0f} % beforehand (effect `shot_collisions`)",
         ),
         Row(
             "impacts hard enough to count",
@@ -222,15 +199,16 @@ def coverage_rows(peening: Peening, calibration: Calibration, figures: Mapping[s
             "very low",
             100 * patch["fraction"],
             "%",
-            "where most hard impacts fall",
+            f"{figures['impacts']['on_patch']} of {figures['impacts']['count']} impacts fall on it; the case puts it "
+            "where they are densest",
         ),
         Row(
             "rounds to full coverage of the patch",
             "the DEM repeated more times, the FE run once",
             patch["full_at_s"] / exposure,
             "",
-            "to 98 % by Avrami's law at this rate; `exposure.shards` merges as many independent rounds before the one "
-            "FE run",
+            f"to {100 * FULL:g} % by Avrami's law at this rate; `exposure.shards` merges as many independent rounds "
+            "before the one FE run",
         ),
     ]
 
@@ -260,10 +238,9 @@ def stress_rows(under: Profile, alone: Alone, at_nozzle: Profile, alike: Profile
         Row(
             "Figure 20: compression ends at",
             "tension below",
-            UM * (found.zero_crossing or np.nan),
+            "nowhere" if found.zero_crossing is None else UM * found.zero_crossing,
             "µm",
-            f"{UM * (same.zero_crossing or np.nan):.0f} µm under the single shot at the same normal speed, "
-            f"{UM * (full.zero_crossing or np.nan):.0f} µm at the nozzle's",
+            f"{crossing(same)} under the single shot at the same normal speed, {crossing(full)} at the nozzle's",
         ),
         Row(
             "Figure 20: difference from the single shot at that speed",
@@ -275,6 +252,22 @@ def stress_rows(under: Profile, alone: Alone, at_nozzle: Profile, alike: Profile
     ]
 
 
+def crossing(of: Residual) -> str:
+    """Where compression ends, in words."""
+    return "nowhere" if of.zero_crossing is None else f"at {UM * of.zero_crossing:.0f} µm"
+
+
+def impacts_drawn(peening: Peening, alone: Alone) -> Figure:
+    """Figure 21, with a ring around the impact of Figure 20."""
+    figure = patch_plots.impact_map(peening, LENGTH)
+    place = peening.surface.unroll(peening.impacts.point[alone.row][None])[0] * LENGTH.factor
+    axes = figure.axes[0]
+    ring = {"mfc": "none", "mec": drawing.INK, "mew": 2, "ms": 13}
+    axes.plot(*place, "o", label=f"the impact of Figure 20, load factor {alone.factor:.2f}", **ring)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center")
+    return figure
+
+
 def frictionless(lost: Table) -> Row:
     """What shots keep that slide on the rod."""
     factor = float(lost.lines[-1][3])
@@ -283,8 +276,8 @@ def frictionless(lost: Table) -> Row:
         PAPER_FACTOR,
         factor,
         "",
-        "with the paper's CoR; with friction shots roll off the rod, which takes two sevenths of their speed along it. "
-        + ("The paper's factor is what shots have that slide" if abs(factor / PAPER_FACTOR - 1) < NEAR else ""),
+        "with the paper's CoR; with friction shots roll off the rod, which takes two sevenths of their speed along it"
+        + (": the paper's factor would fit shots that slide" if abs(factor / PAPER_FACTOR - 1) < NEAR else ""),
     )
 
 
@@ -305,8 +298,8 @@ def stresses(under: Profile, alone: Alone, at_nozzle: Profile, alike: Profile) -
         axes.axhline(0, color=drawing.QUIET, lw=0.8)
         axes.set(xlabel="depth below the original surface [µm]", xlim=(0, 400))
         axes.legend(loc="lower right")
-    components.set(ylabel="residual stress [MPa]", title="under a single impact on the hole")
-    means.set_title("(S11+S22)/2, and under single shots onto a plane")
+    components.set(ylabel="residual stress [MPa]", title="under the lone impact on the hole")
+    means.set_title("beside single shots onto a plane")
     return figure
 
 
@@ -327,8 +320,8 @@ def losses(bench: Bench, results: Path, calibration: Calibration) -> Table:
         lines.append([cor, given["friction"], speed, float(np.median(factor)), float(np.percentile(factor, 95))])
     head = ["CoR", "friction", "normal speed [m/s], median", "load factor, median", "load factor, 95 %"]
     return Table(
-        "Load factors of the hard impacts (above half of the fastest) by what shots lose at the rod; the paper gives "
-        f"the first line's CoR but no friction, and a factor of {PAPER_FACTOR:g}",
+        "Load factors of the hard impacts (above half of each run's fastest) by what shots lose at the rod; the paper "
+        f"gives the first line's CoR but no friction, and a factor of {PAPER_FACTOR:g}",
         head,
         lines,
     )
@@ -358,4 +351,7 @@ PART = Part(
     here="`cases/bolt-hole`, `peenflow run` with LIGGGHTS and the finite elements of its own; `[deflector]`, "
     '`[target] patch = { at = "densest" }`, `report/impacts.svg`',
     measure=measure,
+    elements="The hole's patch bears on all impacts: its elements are the preset's, and the cost of smaller ones grows "
+    "with the fourth power; single shots beside Figure 20 have the same.",
+    beside=(hole.FOLDER,),
 )

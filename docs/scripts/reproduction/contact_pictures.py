@@ -83,7 +83,7 @@ IN_AXES = {"xycoords": ("axes fraction", "data"), "textcoords": "offset points"}
 def velocities(pairs: Sequence[Both]) -> Figure:
     """Figure 11."""
     figure = drawing.canvas(9.2, 4.0)
-    panels = figure.subplots(1, len(pairs))
+    panels = figure.subplots(1, len(pairs), sharey=True)
     for axes, one in zip(panels, pairs, strict=True):
         time, velocity = to_end(one.fem.time, one.fem.velocity)
         axes.plot(time * US, velocity, color=drawing.BLUE, label="FEM")

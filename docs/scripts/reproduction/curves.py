@@ -19,6 +19,7 @@ PEENING = 1e5  # 1/s, at which the sets are compared
 LARGEST_STRAIN = 0.3
 SHOWN_STRAIN = 0.1  # plastic, of the table
 MPA, GPA = 1e-6, 1e-9
+SET_COLOURS = (drawing.BLUE, drawing.ORANGE, drawing.GREEN, drawing.RED, drawing.SKY, drawing.PURPLE)
 SUPERSCRIPT = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -125,8 +126,7 @@ def curves(sets: Sequence[Material]) -> Figure:
     by_rate.axhline(1, color=drawing.QUIET, lw=0.8, ls="--")
     by_rate.set(xlabel="true strain", ylabel=f"true stress over {MPA * sets[0].A:.0f} MPa", title=sets[0].name)
     by_rate.legend(title="strain rate", loc="lower right")
-    others = (drawing.ORANGE, drawing.GREEN, drawing.RED, drawing.SKY, drawing.PURPLE)
-    for one, colour in zip(sets, (drawing.BLUE, *others), strict=True):
+    for one, colour in zip(sets, SET_COLOURS, strict=True):
         strain, stress = stress_strain(one, PEENING)
         by_set.plot(strain, MPA * stress, color=colour, lw=2.4 if one is sets[0] else 1.1, label=one.name)
     by_set.set(xlabel="true strain", ylabel="true stress [MPa]", title=f"the library's sets at {power(PEENING)} /s")

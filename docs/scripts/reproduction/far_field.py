@@ -136,13 +136,13 @@ def _axis(one: Peened, deep: Peened) -> float:
 def _told(runs: Runs, deep: Peened) -> str:
     other = off(runs["fixed"][DEEP], deep)
     errors = {depth: [off(runs[name][depth], deep) for name in ("far-field", "fixed")] for depth in DEPTHS}
-    told = {depth: pair for depth, pair in errors.items() if max(pair) > NOISE}
+    told = {depth: pair for depth, pair in errors.items() if min(pair) > NOISE}
     better = [depth for depth, (far, fixed) in told.items() if far < fixed]
     where = "at each of these" if len(better) == len(told) else f"at {_listed(better)}"
     return (
         f"Each run is explicit throughout, and ends when the patch has come to rest. Differences below {NOISE:g} % are "
-        f"noise: they no longer fall with depth, and the deep mesh on a support differs by {other:.2f} % itself. Above "
-        f"it lie the depths {_listed(list(told))}; the far field is nearer to the deep mesh than a support {where}. "
+        f"noise: they no longer fall with depth, and the deep mesh on a support differs by {other:.2f} % itself. Both "
+        f"are above it at {_listed(list(told))}; the far field is nearer to the deep mesh than a support {where}. "
         "The paper's infinite elements absorb waves and hold nothing (*no support in the vertical direction*), as "
         "dashpots alone do here; springs for the stiffness of the body behind are this program's addition."
     )
@@ -207,7 +207,7 @@ def stresses(runs: Runs, deep: Peened) -> Figure:
     error.axvline(PAPER, color=RED, lw=1.0, ls=":", label=f"the paper's {PAPER:g} mm")
     error.set(xlabel="depth of the mesh [mm]", ylabel="rms difference from the deep mesh [%]")
     error.set_xticks(DEPTHS, [f"{depth:g}" for depth in DEPTHS])
-    error.minorticksoff()
+    error.minorticks_off()
     error.yaxis.set_major_formatter("{x:g}")
     error.legend(loc="upper right", title="axis; dashed: mean", frameon=True, edgecolor="none")
     return figure
@@ -219,4 +219,5 @@ PART = Part(
     here="`accuracy.depth`, `accuracy.boundary` and the effect `far_field`: `peenflow.loads.deck`, "
     "`peenflow.fe.boundary`; for Abaqus `peenflow export` writes infinite elements (CIN3D8)",
     measure=measure,
+    elements=f"{len(BOUNDARIES)} bottoms at {len(DEPTHS)} depths, down to {DEEP:g} mm, are compared with each other.",
 )

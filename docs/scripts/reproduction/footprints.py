@@ -106,7 +106,7 @@ def _cpu_rows(impact: Peened, pressed: Pressed) -> list[Row]:
             CPU_IMPACT,
             impact.cpu,
             "s",
-            f"{len(impact.deck.patch.hexes)} elements, {impact.response.steps} steps, coming to rest included; the "
+            f"{len(impact.deck.patch.hexes):,} elements, {impact.response.steps:,} steps, coming to rest included; the "
             "paper gives neither its mesh nor its machine",
         ),
         Row(
@@ -114,7 +114,7 @@ def _cpu_rows(impact: Peened, pressed: Pressed) -> list[Row]:
             CPU_PRESSURE,
             paper.cpu,
             "s",
-            f"`{PAPER}`, the paper's, {paper.response.steps} steps",
+            f"`{PAPER}`, the paper's, {paper.response.steps:,} steps",
         ),
         Row(
             "Table 3: pressure over impact, CPU time",
@@ -138,7 +138,8 @@ def _match_rows(impact: Peened, pressed: Pressed, replay: Peened) -> list[Row]:
     ):
         off = percent_off(one.under(), impact.under())
         deepest = 100 * (one.under().minimum[1] / impact.under().minimum[1] - 1)
-        told = f"least stress {deepest:+.1f} %, depth of the dent {_percent(one.dent_depth, impact.dent_depth)}: {told}"
+        dent = _percent(one.dent_depth, impact.dent_depth)
+        told = f"least stress {signed(deepest, 1)} %, depth of the dent {dent}: {told}"
         rows.append(Row(f"Figure 13: rms difference on the axis, {what}", "match very well", off, "%", told))
     return rows
 
@@ -176,8 +177,14 @@ def _figures(one: Peened) -> list[float]:
     return [MPA * stress, UM * depth, UM * one.dent_depth, one.response.steps, one.cpu]
 
 
+def signed(value: float, digits: int) -> str:
+    """With its sign, but none of a zero."""
+    rounded = round(value, digits)
+    return f"{rounded:+.{digits}f}" if rounded else "0"
+
+
 def _percent(value: float, against: float) -> str:
-    return f"{100 * (value / against - 1):+.0f} %"
+    return f"{signed(100 * (value / against - 1), 0)} %"
 
 
 def _told(
@@ -253,4 +260,5 @@ PART = Part(
     "`peenflow study --knobs load,pressure_shape` measures the shapes for "
     "any case with a part",
     measure=measure,
+    elements=f"Those of {COARSE} are for comparison; the unit cell is the preset's.",
 )

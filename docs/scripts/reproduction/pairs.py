@@ -1,7 +1,7 @@
 """Figure 22: two shots at once, at several distances, against one alone and against one after the other."""
 
 import csv
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from parts import Bench, Found, Part, Row, Table
-from peened import MPA, ONE_IMPACT, UM, Peened, percent_off, read, settings
+from peened import MPA, ONE_IMPACT, UM, Peened, least_from, percent_off, read, settings
 
 from peenflow.results import drawing
 from peenflow.results.drawing import BLUE, INK, ORANGE, QUIET, RED
@@ -95,9 +95,9 @@ def _under(one: Peened) -> Curve:
 
 
 def _rows(pairs: Pairs) -> list[Row]:
-    limit = _no_longer(pairs.from_alone)
-    turn = _no_longer(pairs.from_turn)
-    at = f"at {PAPER:g} d {pairs.from_alone(PAPER):.2f} % rms"
+    limit = least_from(DISTANCES, pairs.from_alone, MATTERS)
+    turn = least_from(DISTANCES, pairs.from_turn, MATTERS)
+    ends = [pairs.from_alone(apart) for apart in (1.0, PAPER, DISTANCES[-1])]
     return [
         Row(
             f"Figure 22: distance from which on a second shot at once changes the first's stress by less than "
@@ -105,7 +105,8 @@ def _rows(pairs: Pairs) -> list[Row]:
             PAPER,
             "none tried" if limit is None else limit,
             "d",
-            f"{at}; nothing ends there: the distance depends on what is called little",
+            f"the change is {ends[0]:.2f} % at 1 d, {ends[1]:.2f} % at {PAPER:g} d and {ends[2]:.2f} % at "
+            f"{DISTANCES[-1]:g} d: the distance depends on what is called little",
         ),
         Row(
             "Figure 22: rms change at the paper's distance",
@@ -125,23 +126,18 @@ def _rows(pairs: Pairs) -> list[Row]:
     ]
 
 
-def _no_longer(change: Callable[[float], float]) -> float | None:
-    """The least distance tried from which on the change stays below what matters; None: none does."""
-    good = None
-    for apart in sorted(DISTANCES, reverse=True):
-        if change(apart) > MATTERS:
-            break
-        good = apart
-    return good
-
-
 def _table(pairs: Pairs) -> Table:
     lines = [
         [apart, pairs.from_alone(apart), pairs.turn_from_alone(apart), pairs.from_turn(apart)] for apart in DISTANCES
     ]
     return Table(
-        "Rms change of (S11+S22)/2 over depth under the first shot, in % of its least stress",
-        ["distance [d]", "two at once, from one alone", "one after the other, from one alone", "at once, from in turn"],
+        "Rms change of (S11+S22)/2 over depth under the first shot, of its least stress",
+        [
+            "distance [d]",
+            "two at once, from one alone [%]",
+            "one after the other, from one alone [%]",
+            "at once, from in turn [%]",
+        ],
         lines,
     )
 
@@ -172,7 +168,7 @@ def picture(pairs: Pairs) -> Figure:
     ):
         axes.semilogy(DISTANCES, [change(apart) for apart in DISTANCES], mark, color=colour, ms=5, label=name)
     axes.axvline(PAPER, color=RED, lw=1.0, ls=":", label=f"the paper's {PAPER:g} d")
-    axes.axhline(MATTERS, color=QUIET, lw=0.8, ls="--")
+    axes.axhline(MATTERS, color=QUIET, lw=0.8, ls="--", label=f"{MATTERS:g} %, called little here")
     axes.set(xlabel="distance of the shots [diameters]", ylabel="rms change under the first [%]")
     axes.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
     axes.minorticks_off()
@@ -197,4 +193,5 @@ PART = Part(
     of="section 4.2, Figure 22",
     here="`accuracy.group_distance`: `peenflow.loads.groups` lets impacts start together that are that far apart",
     measure=measure,
+    elements="One patch 2.4 mm long bears all distances, and what is compared are its runs with each other.",
 )

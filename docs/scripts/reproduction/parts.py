@@ -57,6 +57,8 @@ class Part:
     of: str  # the paper's section, tables and figures
     here: str  # where the program does the same: modules, functions, keys, commands
     measure: Callable[["Bench"], Found]
+    elements: str = ""  # why they are not of 0.01 mm, where they are not
+    beside: Sequence[str] = ()  # folders of other parts' runs that it looks at
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import dumps
@@ -75,8 +76,8 @@ def grouped(bench: Bench) -> Saved:
     size = MM * reading.scene(hole.CASE, *QUICK).knobs.mesh_size
     title = (
         "The bolt hole's patch, its impacts grouped or not; the first line is reckoned, not run. Preset `draft` "
-        f"(elements of {size:.3g} mm) and the event-driven engine, whose stream is another than LIGGGHTS' of the sections "
-        "above"
+        f"(elements of {size:.3g} mm) and the event-driven engine, whose stream is another than LIGGGHTS' of the "
+        "sections above"
     )
     return Saved(group_rows(together, single, spread, off), Table(title, head, lines))
 
@@ -154,8 +155,8 @@ def patches(bench: Bench) -> Saved:
             None,
             holes[0] / holes[1],
             "",
-            f"{holes[0]:,} instead of {holes[1]:,}: layers grow thicker with depth, so that inner material costs little "
-            "already",
+            f"{holes[0]:,} instead of {holes[1]:,}: layers grow thicker with depth, so that inner material costs "
+            "little already",
         ),
     ]
     lines = [[f"far field, {far_field.PAPER:g} mm", len(far.deck.patch.hexes), far.cpu, wish]]
@@ -170,7 +171,7 @@ def patches(bench: Bench) -> Saved:
 def depth_for(errors: Mapping[float, float], wish: float) -> float:
     """Depth [mm] at which the error [%], by depth, has fallen to `wish`: its logarithm is linear between depths."""
     depths = sorted(errors)
-    for shallow, deep in zip(depths, depths[1:], strict=False):
+    for shallow, deep in pairwise(depths):
         above, below = errors[shallow], errors[deep]
         if below <= wish <= above:
             return shallow + (deep - shallow) * float(np.log(above / wish) / np.log(above / below))
@@ -190,4 +191,6 @@ PART = Part(
     here="`[exposure] shards`, `accuracy.contact_interval`, `accuracy.group_distance`, `accuracy.boundary` and "
     "`accuracy.depth`; `peenflow study` and docs/accuracy.md measure what each costs in accuracy",
     measure=measure,
+    elements="What is compared here is cost, by the preset `draft` and by the runs of *How deep the mesh must be*.",
+    beside=("far_field",),
 )

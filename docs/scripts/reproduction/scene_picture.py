@@ -3,6 +3,7 @@
 Run as a module (`python scene_picture.py NPZ PNG`), in a process of its own as `peenflow.results.render` is.
 """
 
+import math
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -21,6 +22,16 @@ SIZE = (1600, 1000)  # pixels
 HEIGHTS = (0.44, 0.56)  # of the picture: the whole above, the patch below
 BODY = 1.6  # of a nozzle's diameter: its length in the picture
 DOTS = (1.0, 0.25)  # of the shot's diameter: impacts' dots above and below
+TICK = 10.0  # m/s, of the colours
+LABEL: dict[str, Any] = {
+    "font_size": 30,
+    "text_color": "black",
+    "shape": None,
+    "always_visible": True,
+    "show_points": False,
+    "justification_horizontal": "center",
+    "justification_vertical": "center",
+}
 MM = 1e3
 
 
@@ -101,9 +112,14 @@ def _impacts(plotter: Any, pyvista: Any, found: Any, shown: np.ndarray, size: fl
     cloud = pyvista.PolyData(found["points"][shown])
     cloud[title], cloud["size"] = found["speed"][shown], size * found["sizes"][shown]
     dots = cloud.glyph(geom=pyvista.Sphere(radius=0.5), scale="size", orient=False)
-    limits = (0, float(found["speed"].max()))
+    steps = math.ceil(float(found["speed"].max()) / TICK)
     plotter.add_mesh(
-        dots, scalars=title, cmap="viridis", clim=limits, scalar_bar_args=BAR, show_scalar_bar=size == DOTS[1]
+        dots,
+        scalars=title,
+        cmap="viridis",
+        clim=(0, TICK * steps),
+        scalar_bar_args=BAR | {"n_labels": steps + 1},
+        show_scalar_bar=size == DOTS[1],
     )
 
 
@@ -125,6 +141,9 @@ def _whole(plotter: Any, pyvista: Any, found: Any) -> None:
         plotter.add_mesh(tube, color="#56B4E9", ambient=0.35, diffuse=0.65)
         beam = pyvista.Cylinder(mouth + direction * jet / 2, direction, diameter / 2, jet, resolution=60, capping=False)
         plotter.add_mesh(beam, color="#56B4E9", opacity=0.18)
+        plotter.add_point_labels([mouth - direction * body / 2], ["nozzle"], **LABEL)
+    if len(found["rod"]):
+        plotter.add_point_labels([found["rod"].reshape(-1, 3).mean(axis=0)], ["rod"], **LABEL)
     view, up = found["view"], found["up"]
     middle = found["triangles"].reshape(-1, 3).mean(axis=0)
     plotter.camera.parallel_projection = True

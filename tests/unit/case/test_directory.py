@@ -151,7 +151,8 @@ def test_all_problems_are_named_at_once(hole: Path) -> None:
         (["shot.size=CW14", "shot.diameter=1 mm"], "give exactly one of diameter and size; both are given"),
         (["accuracy.boundary=fixed", "effects.far_field=on"], '"fixed" contradicts effects.far_field'),
         (["accuracy.dem_time_step=0.53"], "is 0.53 of the Rayleigh step: above 0.5"),
-        (["accuracy.facet_size=0.1 mm"], "0.1 mm is less than a shot of 0.3556 mm touches at once"),
+        (["accuracy.facet_size=0.1 mm"], "give the shot's diameter, and never less than 0.1067 mm"),
+        (["target.geometry.length=0.3 mm"], "target.geometry.length=0.3 mm: a hole 0.3 mm long is shorter than a shot"),
         (["accuracy.facet_size=2 mm"], "12 facets go around the hole, of at most 1.963 mm"),
         (["accuracy.facet_size=0.5"], "0.5 has no unit"),
         (
@@ -161,7 +162,7 @@ def test_all_problems_are_named_at_once(hole: Path) -> None:
                 "nozzle.0.diameter=0.5 mm",
                 "target.patch.arc=1 mm",
             ],
-            "is too small for shots of 0.3556 mm: DEM needs 12 facets around it",
+            "smaller shots, or state accuracy.facet_size, at most 0.4189 mm",
         ),
         (["single_shot.speed=60 m/s"], "excludes nozzle: a case has one of nozzle, impacts, contacts, single_shot"),
         (["impacts.file=/etc/passwd"], "'/etc/passwd' leads out of the case directory"),

@@ -229,5 +229,6 @@ def test_the_guides_table_is_the_registrys() -> None:
     page = (CASES.parent / "docs" / "guide" / "effects.md").read_text(encoding="utf-8")
     rows = [line for line in page.splitlines() if line.startswith("| `")]
     assert rows == [f"| `{e.name}` | {e.stage} | {e.criterion} | {e.cost} |" for e in EFFECTS]
+    assert not [e.name for e in EFFECTS if "|" in e.criterion + e.cost]  # it would end the table's cell
     for name in resolve(*read_case(CASES / "plate")).not_modelled:
         assert f"- `{name}`:" in page

@@ -4,11 +4,14 @@ import math
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
+from situations import situation
 
 from peenflow.case.directory import read_case
 from peenflow.case.model import Case
-from peenflow.effects.shot_collisions import _free
+from peenflow.effects.lingering import lingering_shots
+from peenflow.effects.shot_collisions import _free, _meetings, _within, meeting_share
 from peenflow.resolve import resolve
 from peenflow.scene import Decision
 
@@ -78,3 +81,47 @@ def test_a_jet_along_a_hole_meets_nothing_but_what_its_cone_throws_back() -> Non
     assert slanted is not None
     assert 0.036 < widened < 0.3  # 3.6 % by the embedded engine
     assert slanted == pytest.approx(0.066, rel=0.3)  # likewise
+
+
+def test_slow_ricochets_are_met_along_the_way_through_the_hole() -> None:
+    """π d² s n: 12 mm from the mouth to the rod in the middle of its travel, then off it to the wall."""
+    given = situation("bolt-hole", "dem.friction=0")
+    ((_, found),) = _meetings(given)
+    off_wall = 3.75e-3 * math.hypot(1, (1 - 0.57) / (1 + 0.57))
+    density = lingering_shots(given).mean / (math.pi / 4 * 7.5e-3**2 * 25e-3)
+    assert found.lingering == pytest.approx(math.pi * 0.3556e-3**2 * (12e-3 + off_wall) * density, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "inside"),
+    [
+        ((0, 0, 2), (0, 0, 8), 6),
+        ((0, 0, 16), (0, 0, -5), 10),
+        ((0, 0, 12), (3, 0, 8), 2.5),
+        ((0, 0, 15), (0, 0, 11), 0),
+        ((1, 0, 5), (4, 0, 5), 3),
+        ((1, 0, 10), (4, 0, 10), 3),
+        ((1, 0, 11), (4, 0, 11), 0),
+        ((1, 0, -1), (4, 0, -1), 0),
+    ],
+)
+def test_only_what_lies_between_the_mouths_counts(start: tuple[int, ...], end: tuple[int, ...], inside: float) -> None:
+    """Of a hole 10 long."""
+    assert _within(np.array(start, float), np.array(end, float), 10.0) == pytest.approx(inside)
+
+
+def test_shots_that_miss_the_target_off_the_rod_are_no_rebounding_ones() -> None:
+    """An 85° face throws them out of the hole: the jet crosses them, and nothing rebounds from the wall."""
+    given = situation("bolt-hole", "deflector.angle=85 deg")
+    ((_, found),) = _meetings(given)
+    assert (found.rebounding, found.height) == (0.0, 0.0)
+    assert found.crossing > 0
+    assert meeting_share(given) == pytest.approx(1 - math.exp(-found.crossing - found.lingering))
+
+
+@pytest.mark.parametrize("x", [0.99, 1.0, 1.01])
+def test_a_jet_along_the_rods_face_has_an_estimate(x: float) -> None:
+    beside = ("nozzle.0.position=['-6 mm', '0 mm', '31 mm']", "nozzle.0.diameter=1 mm")
+    estimate = decided("bolt-hole", "dem.restitution=0.57", *beside, f"nozzle.0.direction=[{x}, 0, -1]").estimate
+    assert estimate is not None
+    assert 0 <= estimate <= 1

@@ -5,6 +5,7 @@ OpenCASCADE itself dies of some of them, in a process of its own.
 
 import dataclasses
 import json
+import os
 import random
 import re
 import subprocess
@@ -132,6 +133,21 @@ def test_a_damaged_file_is_read_or_refused(
 # ---- one by one ------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(("number", "name"), [(6, "SIGABRT"), (35, "signal 35")])
+def test_a_reader_that_a_signal_ends_is_told_with_what_to_do(
+    tmp_path: Path, whole: bytes, number: int, name: str, monkeypatch: pytest.MonkeyPatch
+):
+    """35 is one of real time, without a name."""
+    (tmp_path / "part.step").write_bytes(whole)
+    dying = tmp_path / "dying"
+    dying.write_text(f"#!/bin/sh\nkill -{number} $$\n")
+    dying.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(dying))
+    said = refused(tmp_path / "part.step")
+    assert f"was killed by {name} on the STEP file" in said
+    assert "Heal the part in CAD, or simplify it to what is peened: the reader has no more than 4 GiB." in said
+
+
 def everywhere(number: bytes) -> Callable[[bytes], bytes]:
     return lambda whole: whole.replace(b"10.", number)
 
@@ -196,22 +212,39 @@ def test_a_file_of_a_gibibyte_is_refused_unread(tmp_path: Path):
     assert "has 1024 MiB, and no more than 256 are read" in refused(path)
 
 
-LIMITED = """
-import sys
+READER = """
+import resource, sys
 from pathlib import Path
 from peenflow.geometry.cad import reader
 
-reader.MEMORY = 100_000_000
-sys.exit(reader.main(Path(sys.argv[1]), Path(sys.argv[2])))
+{limit}
+status = reader.main(Path(sys.argv[1]), Path(sys.argv[2]))
+print()
+print(*resource.getrlimit(resource.RLIMIT_AS))
+sys.exit(status)
 """
+
+
+def read_with(limit: str, folder: Path, whole: bytes) -> subprocess.CompletedProcess[str]:
+    """A process of the reader's that sets a limit first and tells at last what it had; its answer lies in `folder`."""
+    (folder / "part.step").write_bytes(whole)
+    asked = {"part": {"path": str(folder / "part.step"), "faces": [1]}, "wish": dataclasses.asdict(WISH)}
+    (folder / "question.json").write_text(json.dumps(asked))
+    code = READER.format(limit=limit)
+    command = [sys.executable, "-c", code, str(folder / "question.json"), str(folder / "answer.npz")]
+    env = os.environ | MODULE.ONE_THREAD
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=60, env=env)
 
 
 def test_memory_is_bounded(tmp_path: Path, whole: bytes):
     """The process that reads is refused more than its limit, and dies."""
-    (tmp_path / "part.step").write_bytes(whole)
-    asked = {"part": {"path": str(tmp_path / "part.step"), "faces": [1]}, "wish": dataclasses.asdict(WISH)}
-    (tmp_path / "question.json").write_text(json.dumps(asked))
-    command = [sys.executable, "-c", LIMITED, str(tmp_path / "question.json"), str(tmp_path / "answer.npz")]
-    done = subprocess.run(command, capture_output=True, check=False, timeout=60)
+    done = read_with("reader.MEMORY = 100_000_000", tmp_path, whole)
     assert done.returncode not in (0, InputError.exit_status)
     assert not (tmp_path / "answer.npz").exists()
+
+
+@pytest.mark.parametrize("limits", ["(most, most)", "(most, resource.RLIM_INFINITY)"])
+def test_a_lower_limit_of_the_machines_is_kept(tmp_path: Path, whole: bytes, limits: str):
+    """`ulimit -v`, as clusters set it; only root may raise a hard one."""
+    done = read_with(f"most = 2**31; resource.setrlimit(resource.RLIMIT_AS, {limits})", tmp_path, whole)
+    assert (done.returncode, done.stdout.splitlines()[-1]) == (0, f"{2**31} {2**31}"), done.stderr

@@ -38,7 +38,18 @@ class Saddle:
         return np.stack([x, y, self.twist * x * y], axis=-1), axes
 
 
-@pytest.mark.parametrize("surface", [Plate(1e-3), BoltHole(3e-3, 20e-3), Saddle(300.0), Saddle(1500.0)])
+class Bar:
+    """A round bar's outside, below whose middle layers turn over."""
+
+    def sheet(self, uv):
+        radius, (along, around) = 0.15e-3, np.moveaxis(uv, -1, 0)
+        zero, c, s = np.zeros_like(along), np.cos(around / radius), np.sin(around / radius)
+        rows = [[zero + 1, zero, zero], [zero, c, -s], [zero, s, c]]
+        points = np.stack([along, radius * s, radius * (c - 1)], axis=-1)
+        return points, np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+@pytest.mark.parametrize("surface", [Plate(1e-3), BoltHole(3e-3, 20e-3), Saddle(300.0), Saddle(1500.0), Bar()])
 def test_the_least_jacobian_is_the_meshs(surface):
     wanted = inputs(surface)
     patch = build_under(surface.sheet, *grid_lines(wanted))

@@ -1,5 +1,6 @@
 """Which points a case gets."""
 
+import dataclasses
 from functools import cache
 from pathlib import Path
 
@@ -8,7 +9,7 @@ import pytest
 from peenflow.case.directory import read_case
 from peenflow.errors import InputError
 from peenflow.resolve import resolve
-from peenflow.study.knobs import KNOBS, rounded
+from peenflow.study.knobs import KNOBS, Sweep, rounded
 from peenflow.study.plan import plan
 from peenflow.study.unsure import family
 
@@ -99,6 +100,22 @@ def test_facets_are_varied_where_their_chords_stand_out_of_a_round_wall():
     assert values(narrow, "facet_size")[0] == "0.7112 mm"
     assert planned("plate").left_out["facet_size"] == "facets of any size follow a plane"
     assert planned("single-shot").left_out["facet_size"] == "no stream is computed"
+
+
+def test_a_hole_too_narrow_for_facets_as_large_as_the_shot_has_none_to_vary():
+    narrow = ("target.geometry.diameter=1.3 mm", "deflector.diameter=0.4 mm", "nozzle.0.diameter=0.5 mm")
+    found = planned("bolt-hole", None, *narrow, "target.patch.arc=1 mm", "accuracy.facet_size=0.2 mm")
+    assert found.left_out["facet_size"] == "facets that go around so narrow a hole are shorter than the shot's diameter"
+
+
+def test_on_cad_faces_facets_are_only_made_finer_and_not_below_the_shot():
+    """Larger ones than the base's may not follow the faces; the mesher's edges scatter down to size/1.6."""
+    knob = next(knob for knob in KNOBS if knob.name == "facet_size")
+    scene = resolve(*read_case(CASES / "blade-fillet"))
+    assert knob.missing(scene) == "the mesher's edges scatter down to the shot's diameter already"
+    coarse = dataclasses.replace(scene, knobs=dataclasses.replace(scene.knobs, facet_size=1e-3))
+    assert knob.missing(coarse) is None
+    assert knob.sweep(coarse) == Sweep(("0.8534 mm", "0.569 mm"), "0.569 mm")
 
 
 def test_what_is_not_known_well_is_varied_only_when_asked_for():
