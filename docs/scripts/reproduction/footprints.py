@@ -209,7 +209,7 @@ def _told(
     turns = "the same shape on both meshes" if len(best) == 1 else "which shape that is depends on the elements"
     return (
         "All pressures follow the surface as it deforms and press, per undeformed area, with the calibrated impact's "
-        "force by time; they differ in where it acts (docs/decisions/pressure-shape.md). Nearest on the axis are "
+        "force by time; they differ in where it acts ([why](decisions/pressure-shape.md)). Nearest on the axis are "
         f"{' and '.join(nearest)}: {turns}. A small error of the stress can hide a wrong dent: {which} is "
         f"{stress:.1f} % rms off on the axis, its dent {dent:+.0f} % in depth. {100 * (MORE[0] - 1):.0f} % more load "
         f"changes the stress under `{DEFAULT}` by {by_load['pressure']:.1f} %, as much more speed that under the "

@@ -150,7 +150,7 @@ def measure(bench: Bench) -> Found:
         "(doubles of an edge, an impact over several outputs, two shots at once, a shot that hits twice, one that "
         "leaves the domain), through all of it, and finds exactly those. Nodes are sorted as the paper says: a search "
         "looks at a strip of x only. Of an edge's doubles the paper keeps one set; here their forces are summed, since "
-        "each facet bears a part of the shot's.",
+        "the engine lets all of them act on the shot ([why](decisions/contacts-to-impacts.md)).",
     )
 
 
