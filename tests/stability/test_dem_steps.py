@@ -62,7 +62,7 @@ def test_restitution_by_time_step(share, restitutions, rung):
 
 def warned(share):
     """0 where `check` says that the step is too long, or refuses it."""
-    settings = ["--set", f"accuracy.dem_time_step={share}"]
+    settings = ["--set", "dem.engine=liggghts", "--set", f"accuracy.dem_time_step={share}"]
     told = peenflow("check", "cases/plate", "--json", *settings)
     if share > 0.5:
         refused = told.returncode == 2 and "Rayleigh" in told.stderr

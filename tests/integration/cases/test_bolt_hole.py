@@ -66,7 +66,7 @@ def test_another_shot_makes_stale_what_depends_on_it_and_status_says_why(hole):
     told = hole.peenflow("status", "shot.diameter=0.43 mm")
     assert set(states(told).values()) == {"stale"}
     why = {line.split()[0]: line for line in told.stdout.splitlines()}
-    assert "mesh_size changed from" in why["mesh"]  # relative to the dent
+    assert "fine_depth changed from" in why["mesh"]  # relative to the dent
     assert "contact_time changed from" in why["calibrate"]
     assert "mesh comes first" in why["dem"]
 
