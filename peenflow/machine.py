@@ -107,10 +107,11 @@ def _file() -> Path:
 def _key() -> str:
     from peenflow.pipeline.sources import source_hash  # the pipeline itself asks how fast the machine is
 
-    return f"{_processor()}; {cores()} cores; solver {source_hash('fe')[:16]}"
+    return f"{processor()}; {cores()} cores; solver {source_hash('fe')[:16]}"
 
 
-def _processor() -> str:
+def processor() -> str:
+    """Kind of processor, as the system names it."""
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:

@@ -5,14 +5,13 @@ One stream a seed, whose stress is evaluated over squares of several sizes: only
 
 import csv
 import json
-import os
 import statistics
-import subprocess
-import sys
 from dataclasses import dataclass
-from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
+from command import ROOT, peenflow
+
+from peenflow.study.rows import cpu_seconds
+
 BUILD = ROOT / "build" / "study" / "seeds"
 CASE = "cases/plate"
 SETTINGS = (
@@ -78,16 +77,13 @@ def scattered(stresses: list[float]) -> str:
 def _measured(seed: int, side: float) -> Mean:
     out = BUILD / f"seed-{seed}"
     settings = (*SETTINGS, f"exposure.seed={seed}", f"report.area={side:g} mm")
-    command = [sys.executable, "-m", "peenflow", "run", CASE, "--out", str(out)]
-    command += [word for setting in settings for word in ("--set", setting)]
-    subprocess.run(command, check=True, cwd=ROOT, env=os.environ | {"NUMBA_NUM_THREADS": "1"})
+    peenflow("run", CASE, "--out", str(out), settings=settings, NUMBA_NUM_THREADS="1")
     summary = json.loads((out / "summary.json").read_text())
     with open(out / "impacts.csv", newline="") as file:
         places = [(float(row["x_m"]), float(row["y_m"])) for row in csv.DictReader(file)]
-    costs = (row["cpu_s"] - row["compile_s"] for row in summary["ledger"] if row["stage"] != "report")
     return Mean(
         impacts=sum(max(abs(x), abs(y)) <= side * 0.5e-3 for x, y in places),
         least=summary["residual"]["min_Pa"],
         surface=summary["residual"]["surface_Pa"],
-        cpu_s=sum(costs),
+        cpu_s=cpu_seconds(summary["ledger"]),
     )

@@ -7,10 +7,8 @@ in build/study, where finished points are kept, and writes the page from all par
 """
 
 import json
-import os
 import shutil
 import statistics
-import subprocess
 import sys
 from dataclasses import dataclass
 from functools import partial
@@ -18,11 +16,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import seeds
+from command import ROOT, peenflow
 
-from peenflow.machine import threads
+from peenflow.machine import measured, threads
+from peenflow.progress import Silent
 from peenflow.study.workshop import fresh_cache
 
-ROOT = Path(__file__).parents[2]
 BUILD = ROOT / "build" / "study"
 PAGE = ROOT / "docs" / "accuracy.md"
 PICTURES = ROOT / "docs" / "accuracy"
@@ -111,10 +110,8 @@ FIGURES = {
 def run(name: str) -> None:
     """Run, or go on with, one part."""
     part, out = PARTS[name], BUILD / name
-    command = [sys.executable, "-m", "peenflow", "study", part.case, "--out", str(out)]
-    command += ["--knobs", part.knobs] if part.knobs else []
-    command += [word for setting in part.settings for word in ("--set", setting)]
-    subprocess.run(command, check=True, cwd=ROOT)
+    knobs = ("--knobs", part.knobs) if part.knobs else ()
+    peenflow("study", part.case, "--out", str(out), *knobs, settings=part.settings)
 
 
 def page(found: dict[str, dict]) -> str:
@@ -204,13 +201,13 @@ def band(study: dict) -> list[str]:
 def run_shipped() -> None:
     """Run the shipped cases as a user does, calibrations included, and keep their ledgers."""
     TIMES.mkdir(parents=True, exist_ok=True)
+    measured(Silent())  # once, or each run would, in its own cache
     for case in SHIPPED_CASES:
         out = TIMES / case
         shutil.rmtree(out, ignore_errors=True)
         with TemporaryDirectory() as cache:
-            environment = os.environ | {"XDG_CACHE_HOME": str(fresh_cache(Path(cache) / "cache"))}
-            command = [sys.executable, "-m", "peenflow", "run", f"cases/{case}", "--out", str(out)]
-            subprocess.run(command, check=True, cwd=ROOT, env=environment)
+            own = fresh_cache(Path(cache) / "cache")
+            peenflow("run", f"cases/{case}", "--out", str(out), XDG_CACHE_HOME=str(own))
 
 
 def predictions() -> list[str]:

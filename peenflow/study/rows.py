@@ -22,9 +22,7 @@ class Row:
 
     point: Point
     accuracy: Mapping[str, Any]  # [accuracy] as it stood, keys and values as in the case file
-    errors: Mapping[
-        str, float | None
-    ]  # `error_…`, against the reference; of streams and what is unsure against the base
+    errors: Mapping[str, float | None]  # `error_…`, against the reference; of `stream` and `unsure` against the base
     change: float | None  # of the profile from the base's: what this knob alone does
     figures: Mapping[str, float | None]
     cpu_s: float  # of all stages but the report, less compiling, which takes one thread
@@ -68,12 +66,21 @@ def row(point: Point, answer: Answer, against: Answer, base: Answer, accuracy: M
         errors=errors.errors(answer, against),
         change=errors.profile_error(answer.main, base.main),
         figures=figures,
-        cpu_s=round(sum(line["cpu_s"] - line["compile_s"] for line in ledger if line["stage"] != UNTIMED), 3),
-        wall_s=round(sum(line["wall_s"] - line["compile_s"] for line in ledger), 3),
+        cpu_s=cpu_seconds(ledger),
+        wall_s=_wall_seconds(ledger),
         updates=_updates(answer.summary),
-        solver_wall_s=round(sum(line["wall_s"] - line["compile_s"] for line in solving), 3),
+        solver_wall_s=_wall_seconds(solving),
         threads=threads,
     )
+
+
+def cpu_seconds(ledger: Sequence[Mapping[str, Any]]) -> float:
+    """CPU time of a run's stages but the report, less compiling [s]."""
+    return round(sum(line["cpu_s"] - line["compile_s"] for line in ledger if line["stage"] != UNTIMED), 3)
+
+
+def _wall_seconds(ledger: Sequence[Mapping[str, Any]]) -> float:
+    return round(sum(line["wall_s"] - line["compile_s"] for line in ledger), 3)
 
 
 def of_kind(rows: Sequence[Row], *kinds: Kind) -> list[Row]:

@@ -9,7 +9,6 @@ import json
 import math
 import os
 import platform
-import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ import ladder_pictures
 import stability_pictures
 
 import peenflow
+from peenflow.machine import processor
 
 
 @dataclass(frozen=True)
@@ -180,9 +180,7 @@ def section(records, pictures, page):
 
 def machine():
     """Kind of processor and how many of it."""
-    cpuinfo = Path("/proc/cpuinfo")
-    names = re.findall(r"model name\s*: (.*)", cpuinfo.read_text()) if cpuinfo.exists() else []
-    return f"{names[0] if names else platform.machine()}, {os.cpu_count()} cores, {platform.system()}"
+    return f"{processor()}, {os.cpu_count()} cores, {platform.system()}"
 
 
 def head(records, page):

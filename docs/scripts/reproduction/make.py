@@ -9,13 +9,11 @@ import datetime
 import json
 import math
 import os
-import platform
 import re
 import sys
 import time
 from collections import Counter
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import bolt_hole
@@ -33,6 +31,7 @@ import translation
 from parts import ROOT, Bench, Part, store
 
 import peenflow
+from peenflow.machine import processor
 from peenflow.pipeline import manifest
 from peenflow.pipeline.meter import Cost
 
@@ -185,15 +184,6 @@ def number(value: float | str, unit: str = "") -> str:
 def trimmed(text: str) -> str:
     """Without zeros at the end of its decimals."""
     return text.rstrip("0").rstrip(".") if "." in text else text
-
-
-def processor() -> str:
-    """Kind of processor."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-    except OSError:
-        return platform.machine()
-    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), platform.machine())
 
 
 def main(wanted: Sequence[str]) -> None:

@@ -84,23 +84,18 @@ class Bench:
     def run(self, case: Path, name: str, *settings: str, until: str | None = None) -> Path:
         """Results of `peenflow run CASE --set …`, a process of its own; `case` may be a folder of cases."""
         words = ["run", str(case), *(("--until", until) if until else ())]
-        return self._peenflow(name, *words, *(word for setting in settings for word in ("--set", setting)))
+        return self._kept(name, *words, *_set(settings))
 
     def solve(self, deck: Deck, name: str) -> Path:
         """Results of `peenflow solve` of a deck that no case makes."""
         folder = self.work / "decks" / name
         save_deck(deck, folder)
-        return self._peenflow(name, "solve", str(folder))
+        return self._kept(name, "solve", str(folder))
 
-    def _peenflow(self, name: str, *words: str) -> Path:
+    def _kept(self, name: str, *words: str) -> Path:
         out = self.work / "results" / name
-        command = [sys.executable, "-P", "-m", "peenflow", *words, "--out", str(out)]
         began = time.monotonic()
-        done = subprocess.run(
-            command, cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, text=True
-        )
-        if done.returncode:
-            raise SystemExit(f"{name}: {done.stderr.strip() or done.stdout.strip()}")
+        _peenflow(name, *words, "--out", str(out))
         print(f"    {name}: {time.monotonic() - began:.0f} s", flush=True)
         return out
 
@@ -113,11 +108,21 @@ def summary(results: Path) -> dict[str, Any]:
 
 def check(case: Path, *settings: str) -> dict[str, Any]:
     """What `peenflow check CASE --json --set …` tells."""
-    words = [word for setting in settings for word in ("--set", setting)]
-    command = [sys.executable, "-P", "-m", "peenflow", "check", str(case), "--json", *words]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    content: dict[str, Any] = json.loads(done.stdout)
+    content: dict[str, Any] = json.loads(_peenflow("check", "check", str(case), "--json", *_set(settings)))
     return content
+
+
+def _set(settings: Sequence[str]) -> list[str]:
+    return [word for setting in settings for word in ("--set", setting)]
+
+
+def _peenflow(name: str, *words: str) -> str:
+    """What `peenflow WORDS` prints; ends this process where it fails, with what it says."""
+    command, own = [sys.executable, "-P", "-m", "peenflow", *words], os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run(command, cwd=ROOT, env=own, capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(f"{name}: {done.stderr.strip() or done.stdout.strip()}")
+    return done.stdout
 
 
 def store(found: Found, seconds: float, place: Path) -> None:

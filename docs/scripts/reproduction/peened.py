@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import reading
 from parts import ROOT
 
-from peenflow.pipeline import manifest
 from peenflow.records import hdf5
 from peenflow.records.deck import Deck
 from peenflow.records.deck_files import load_deck
@@ -63,10 +63,9 @@ def curve(profile: Profile) -> Curve:
 
 def read(results: Path, deck: Path | None = None) -> Peened:
     """Of `peenflow run`, or of `peenflow solve` of the deck in the folder `deck`."""
-    ran = manifest.read(results, "solve")
-    assert ran is not None
+    cost = reading.cost(results, "solve")
     response = hdf5.load(Response, results / "response.h5")
-    return Peened(load_deck(deck or results / "fe"), response, ran.cost.cpu_s - ran.cost.compile_s)
+    return Peened(load_deck(deck or results / "fe"), response, cost.cpu_s - cost.compile_s)
 
 
 def settings(accuracy: Mapping[str, str]) -> list[str]:
