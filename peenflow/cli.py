@@ -10,6 +10,7 @@ import typer
 
 import peenflow
 from peenflow import console, display, jobs, machine, pipeline, starter
+from peenflow.bearable import burdens
 from peenflow.bench.found import document
 from peenflow.case.directory import read_case
 from peenflow.errors import PeenflowError
@@ -22,6 +23,7 @@ app = typer.Typer(
     help="Residual stress of shot peening: discrete elements throw the shots, explicit finite elements bear them.",
     no_args_is_help=True,
     add_completion=False,
+    rich_markup_mode="markdown",  # the default takes [brackets] for its own
     pretty_exceptions_enable=False,
 )
 
@@ -61,6 +63,7 @@ def init(
 def check(case: CaseArgument, settings: SetOption = None, as_json: JsonOption = False) -> None:
     """Validate a case and show its effects, sizes, and what every stage will cost. Writes nothing."""
     found = estimate(resolve(*read_case(case, settings or [])))
+    found["warnings"] += burdens(found["stages"])
     if as_json:
         display.document(found)
     else:
@@ -148,7 +151,10 @@ def submit(  # noqa: PLR0913 (a parameter an option is typer's way)
     cpus: Annotated[int, typer.Option(min=1, help="Processor cores.")] = 2,
 ) -> None:
     """Write a job script that runs the case on one node of a cluster, and submit it."""
+    _use_cores(cpus)  # times are predicted for as many
     request = _request(case, out, settings)
+    pipeline.refuse_others(request.out, request.directory)
+    found = estimate(resolve(request.case, request.directory))
     hpc = request.case.hpc
     allocation = jobs.Allocation(
         account=account or hpc.account,
@@ -162,6 +168,8 @@ def submit(  # noqa: PLR0913 (a parameter an option is typer's way)
     overrides = [part for setting in settings or [] for part in ("--set", setting)]
     again = (sys.executable, "-P", "-m", "peenflow", "run", str(case.absolute()), "--out", str(results), *overrides)
     script = jobs.write(jobs.Job(request.case.title, again, results), allocation, scheduler)
+    for warning in (*found["warnings"], *jobs.shortfalls(allocation, found["stages"])):
+        display.warning(warning)
     if dry_run:
         display.say(script.read_text() + f"\n# written to {script}, not submitted")
     else:

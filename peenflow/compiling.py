@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass
 class Stopwatch:
-    """Seconds so far."""
+    """Seconds of processor time so far, which compiling takes all of on a machine with nothing else to do."""
 
     seconds: float = 0.0
 

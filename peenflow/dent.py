@@ -23,6 +23,7 @@ class Dent:
     restitution: float
     strain: float  # representative plastic strain
     strain_rate: float  # representative, over the contact time
+    plastic_radius: float  # of the half-sphere under the dent that yields
 
 
 def predict(speed: float, shot: ShotProperties, material: Material) -> Dent:
@@ -34,13 +35,16 @@ def predict(speed: float, shot: ShotProperties, material: Material) -> Dent:
       the first term makes the dent, the second is given back, so that e² = W'/(½ m v²);
     - pressure: p = 3 σ_y, Johnson–Cook's flow stress at strain 0.2 a/R and rate strain/t_c (Tabor);
     - contact time: a quarter period of the plastic spring 2πRp, (π/2)·√(m/(2πRp)), and half of an elastic impact at
-      the speed of rebound, 2.94/2·δ'/(e v), δ' = (5/2)·W'/(π a² p)    (Johnson, §11.4, §11.5).
+      the speed of rebound, 2.94/2·δ'/(e v), δ' = (5/2)·W'/(π a² p)    (Johnson, §11.4, §11.5);
+    - radius c of the metal that yields, an expanding cavity's: 6(1−ν)·(c/a)³ = (E/σ_y)·a/R + 4(1−2ν)   (Johnson, §6.3).
 
     The flow stress depends on a and t_c, hence a fixed-point iteration. The metal is as soft as its temperature before
     the hit makes it; the heat of the hit itself is left out.
 
     At 62.5 m/s on Inconel 718 with a steel shot of 0.3556 mm it gives a dent within 2 % in radius of what explicit
-    FE gives (61.6 µm), and a contact time within 2 % of its 0.450 µs.
+    FE gives (61.6 µm), and a contact time within 2 % of its 0.450 µs. There c is where
+    the residual stress changes sign; under 18 other single hits by FE, of 20 to 300 m/s on Inconel 718, such with other
+    constants, copper and aluminium, it does at 0.69 to 1.25 c, and at 0.37 c in metal nearly molten.
     """
     radius = shot.diameter / 2
     energy = 0.5 * shot.mass * speed**2
@@ -57,7 +61,9 @@ def predict(speed: float, shot: ShotProperties, material: Material) -> Dent:
         strain = STRAIN * a / radius
         rate = strain / time
         pressure = CONSTRAINT * flow_stress(material, strain, rate)
-    return Dent(speed, a, a**2 / (2 * radius), pressure, time, restitution, strain, rate)
+    cavity = (material.young * CONSTRAINT / pressure * a / radius + 4 * (1 - 2 * material.poisson)) / 6
+    plastic = a * (cavity / (1 - material.poisson)) ** (1 / 3)
+    return Dent(speed, a, a**2 / (2 * radius), pressure, time, restitution, strain, rate, plastic)
 
 
 def flow_stress(material: Material, strain: float, rate: float) -> float:

@@ -25,6 +25,7 @@ _HEADLINES = (
     ("single_shot.dent_depth_m", "dent depth", "µm", 1e6),
     ("residual.surface_Pa", "mean residual stress at the surface", "MPa", 1e-6),
     ("residual.min_Pa", "lowest mean residual stress", "MPa", 1e-6),
+    ("residual.min_standard_error_Pa", "its standard error by chance", "MPa", 1e-6),
     ("residual.depth_of_min_m", "at depth", "µm", 1e6),
     ("residual_axis.min_Pa", "lowest under the hardest impact", "MPa", 1e-6),
     ("coverage.fraction", "coverage", "%", 100.0),
@@ -39,6 +40,11 @@ def say(text: str) -> None:
 def error(text: str) -> None:
     """One paragraph on standard error."""
     ERRORS.print(f"Error: {text}", markup=False, highlight=False, soft_wrap=not ERRORS.is_terminal)
+
+
+def warning(text: str) -> None:
+    """One paragraph on standard error, of what is not as it should be and stops nothing."""
+    ERRORS.print(f"Warning: {text}", markup=False, highlight=False, soft_wrap=not ERRORS.is_terminal)
 
 
 def document(content: Mapping[str, Any]) -> None:
@@ -61,6 +67,11 @@ def check(found: Mapping[str, Any]) -> None:
     OUTPUT.print(limits)
     if found["accuracy"]["chosen"]:
         say(found["accuracy"]["chosen"])
+    if expected := found["accuracy"]["mesh_error"]:
+        say(
+            f"error of the stress profile to be expected of the mesh: {100 * expected['error']:.2g} % "
+            f"({expected['elements_per_dent']:.2g} elements to a dent's radius; by the study of {expected['source']})"
+        )
     for part in ("fe", "dem"):
         figures = {name: value for name, value in found[part].items() if name != "engine_why"}
         say(f"{part}: " + ", ".join(f"{name} {_number(value, 4)}" for name, value in figures.items()))
@@ -84,12 +95,12 @@ def outcomes(done: Sequence[Outcome], out: Path) -> None:
         wall = "" if outcome.state == "skipped" else f"{outcome.cost.wall_s:.1f}"
         _row(table, outcome.stage, outcome.state, wall, _number(outcome.predicted_wall, 3))
     OUTPUT.print(table)
-    summary = out / "summary.json"
-    if summary.exists():
-        for line in headlines(json.loads(summary.read_text())):
-            say(line)
-    page = out / "report" / "index.html"
-    say(f"Results: {page if page.exists() else out}")
+    if not any(outcome.stage == "report" and outcome.state != "skipped" for outcome in done):
+        say(f"Results: {out}")  # a page there may tell of another run
+        return
+    for line in headlines(json.loads((out / "summary.json").read_text())):
+        say(line)
+    say(f"Results: {out / 'report' / 'index.html'}")
 
 
 def headlines(summary: Mapping[str, Any]) -> list[str]:

@@ -1,16 +1,15 @@
 """What a case will cost before it runs: sizes, time steps, and time and memory by stage, from closed forms."""
 
 import dataclasses
-import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from peenflow import hourglass, machine
+from peenflow import arrivals, caveats, machine
 from peenflow.calibrate import unit_cell
 from peenflow.calibrate.stage import DENTS_AT_REST
-from peenflow.case.accuracy import CELL_WIDTH, SCATTERS
+from peenflow.case.accuracy import CELL_WIDTH, GROUP_DISTANCE, SCATTERS
 from peenflow.case.contacts_csv import read_contacts
 from peenflow.case.impacts_csv import read_impacts
 from peenflow.case.model import PlateGeometry
@@ -21,7 +20,7 @@ from peenflow.loads.stage import AFTER_LAST, GROUP_INTERVAL
 from peenflow.mesh import shape
 from peenflow.mesh import stage as mesh_stage
 from peenflow.records.upstream import Upstream
-from peenflow.repeats import CROWDING, HITS_PER_SHOT
+from peenflow.repeats import HITS_PER_SHOT
 from peenflow.scene import Scene, Skip
 
 # The solver's speed is the machine's own (`peenflow.machine`), measured once by `run`; all else scales with it from the
@@ -52,13 +51,7 @@ CELL_REST, CELL_CREEP = 26.0, 0.4  # steps; exponent
 PATCH_REST, PATCH_CREEP = 22.0, 0.3  # likewise
 
 ROWS_PER_HIT = 10.0  # contact rows of one hit at 20 % of the Rayleigh step, every second written
-MEETING_GROUPS = 1.2  # groups by impacts in the circle of the group distance, for points drawn at random
-LEAST_SHARING = 0.7  # groups an impact where none can share
-COARSEST = 2.0  # elements in a dent radius, below which a dent is not resolved
 MOST_IN_A_ROW = 10_000  # elements: their square is beyond any memory
-LARGEST_HOURGLASS = 0.12  # of the internal energy: 10 % is what a run may have, and the prediction errs by a fifth
-LARGEST_FRICTION = 0.5  # a shot rougher than this that grazes shears one layer of elements only, of whatever size
-FLATTEST_GRAZE = math.radians(10)  # from the surface, below which any friction does so
 LARGEST_DEM_STEP = 0.3  # of the Rayleigh step: beyond, restitution drifts (3 % at 0.53)
 
 
@@ -119,7 +112,11 @@ def estimate(scene: Scene) -> dict[str, Any]:
             "engine": scene.engine.name if scene.engine else None,
             "engine_why": scene.engine.why if scene.engine else None,
         },
-        "accuracy": {"chosen": scene.chosen, "knobs": dataclasses.asdict(scene.knobs)},
+        "accuracy": {
+            "chosen": scene.chosen,
+            "knobs": dataclasses.asdict(scene.knobs),
+            "mesh_error": None if scene.mesh_error is None else dataclasses.asdict(scene.mesh_error),
+        },
         "machine": {"measured": machine.known().measured, "threads": machine.threads()},
         "warnings": _warnings(scene, sizes, meshed),
     }
@@ -147,11 +144,10 @@ def measure(scene: Scene, meshed: mesh_stage.Inputs | Skip) -> Sizes:
     """
     cell = _cell_elements(scene) if _calibrates(scene) else 0
     elements = 0 if isinstance(meshed, Skip) else _elements(meshed)
-    impacts = _impacts(scene)
-    groups = _groups(scene, impacts)
+    impacts, groups = arrivals.expected(scene)
     h = scene.knobs.mesh_size if elements else scene.knobs.calibration_mesh_size
     step = _time_step(scene, h)
-    impacting = (GROUP_INTERVAL * max(0.0, groups - 1) + AFTER_LAST) * scene.contact_time
+    impacting = _starts(scene, groups) + AFTER_LAST * scene.contact_time
     relaxing = PATCH_REST * elements ** (1 / 3) * (REST / scene.knobs.relaxation) ** PATCH_CREEP
     duration = scene.case.exposure.duration if scene.case.exposure else 0.0
     flown = (duration + FLUSH) if scene.case.nozzle else 0.0
@@ -165,6 +161,32 @@ def measure(scene: Scene, meshed: mesh_stage.Inputs | Skip) -> Sizes:
         dem_steps=flown / (scene.knobs.dem_time_step * rayleigh_step(scene.thrown.smallest)),
         cell_elements=cell,
     )
+
+
+def _starts(scene: Scene, groups: float) -> float:
+    """From the first to the last start of an impact [s]; those of a stream that keep their own times, at most.
+
+    Raises:
+        InputError: the table of impacts cannot be read.
+    """
+    case = scene.case
+    if scene.knobs.group_distance is not None:
+        return GROUP_INTERVAL * max(0.0, groups - 1) * scene.contact_time
+    if case.impacts and scene.surface:
+        file = scene.directory / case.impacts.file
+        return float(np.ptp(read_impacts(file, case.impacts, scene.surface, scene.shot.diameter).t))
+    if case.contacts:
+        table = read_contacts(scene.directory / case.contacts.file, case.contacts)
+        return float(np.ptp(table.t[table.on_target]))
+    return case.exposure.duration + FLUSH if case.exposure else 0.0
+
+
+def _grouped_steps(scene: Scene, sizes: Sizes, meshed: mesh_stage.Inputs | Skip) -> float:
+    """Of the solver, were the impacts grouped as they are by default."""
+    if scene.knobs.group_distance is not None:
+        return sizes.fe_steps
+    knobs = dataclasses.replace(scene.knobs, group_distance=GROUP_DISTANCE)
+    return measure(dataclasses.replace(scene, knobs=knobs), meshed).fe_steps
 
 
 def _time_step(scene: Scene, mesh_size: float) -> float:
@@ -214,34 +236,6 @@ def _shots(scene: Scene) -> float:
     return rate * case.exposure.duration * case.exposure.shards if case.exposure else 0.0
 
 
-def _impacts(scene: Scene) -> float:
-    """Impacts on the patch: those of the table (of contacts: one a shot), or the jet's share that the patch covers."""
-    case, patch = scene.case, scene.case.target.patch
-    if case.impacts:
-        return float(len(read_impacts(scene.directory / case.impacts.file, scene.surface).t))
-    if case.contacts:
-        table = read_contacts(scene.directory / case.contacts.file, case.contacts)
-        return float(len(np.unique(table.shot[table.on_target])))
-    geometry = case.target.geometry
-    if patch is None or geometry is None or not case.nozzle:
-        return 0.0
-    area = math.prod(patch.size)
-    if geometry.kind == "bolt-hole":
-        wall = math.pi * geometry.diameter * geometry.length
-        return _shots(scene) * HITS_PER_SHOT * min(1.0, CROWDING * area / wall)
-    jets = sum(math.pi / 4 * nozzle.diameter**2 for nozzle in case.nozzle)
-    return _shots(scene) * min(1.0, area / jets)
-
-
-def _groups(scene: Scene, impacts: float) -> float:
-    patch, distance = scene.case.target.patch, scene.knobs.group_distance
-    if patch is None or distance is None:
-        return impacts
-    area = math.prod(patch.size)
-    near = math.pi * (distance * scene.shot.diameter) ** 2 / area
-    return max(min(impacts, 1.0), impacts * min(LEAST_SHARING, MEETING_GROUPS * near))
-
-
 def _stages(scene: Scene, sizes: Sizes) -> dict[str, tuple[float, float]]:
     """Wall time [s] and memory [B] of the stages that have work, in order."""
     costs: dict[str, tuple[float, float]] = {}
@@ -281,24 +275,19 @@ def _warnings(scene: Scene, sizes: Sizes, meshed: mesh_stage.Inputs | Skip) -> l
         found.append(f'dem.engine is "event-driven", but {engine.why.partition("; ")[2]}: use "auto" or "liggghts".')
     if engine is not None and engine.name == "liggghts":
         found += _stepped(scene)
-    h = knobs.mesh_size if sizes.elements else knobs.calibration_mesh_size
-    if h > scene.dent_radius / COARSEST * (1 + 1e-9):
-        found.append(
-            f"elements of {h * 1e6:.3g} µm do not resolve a dent of {scene.dent_radius * 1e6:.3g} µm radius: "
-            f"lower accuracy.mesh_size to {scene.dent_radius / COARSEST * 1e6:.3g} µm or less."
-        )
-    held = hourglass.share(h, knobs.hourglass, scene.speed, scene.shot, scene.material)
-    if held > LARGEST_HOURGLASS:
-        found.append(
-            f"hourglass control will hold some {100 * held:.0f} % of the internal energy, where 10 % is tolerable: "
-            "lower accuracy.mesh_size (it goes with the power 1.6 of it), or accuracy.hourglass."
-        )
+    found += caveats.coarse(scene, knobs.mesh_size if sizes.elements else knobs.calibration_mesh_size)
+    if sizes.elements:
+        found += caveats.shallow(scene) + caveats.backed(scene)
+        found += caveats.lengthy(scene, sizes.fe_steps, _grouped_steps(scene, sizes, meshed))
     if not isinstance(meshed, Skip):
         found += shape.told(shape.under_dents(meshed))
-    found += _rubbed(scene)
-    if sizes.elements and sizes.impacts < 1:
-        found.append("less than one impact is expected on the patch: shoot longer, or make target.patch larger.")
-    return found
+    found += caveats.rubbed(scene)
+    if sizes.elements and knobs.active_radius and knobs.load == "impact":
+        found.append(
+            "the time of solve is an upper bound, of all elements: those that accuracy.active_radius lets sleep cost "
+            "nothing, but how many do depends on where the impacts fall."
+        )
+    return found + arrivals.told(scene, sizes.impacts)
 
 
 def _stepped(scene: Scene) -> list[str]:
@@ -319,23 +308,5 @@ def _stepped(scene: Scene) -> list[str]:
             f"accuracy.facet_size is {size * 1e3:.3g} mm{edges}, shorter than the largest shot's diameter, "
             f"{diameter * 1e3:.3g} mm: one contact may spread over several facets, among which LIGGGHTS splits its "
             f"force; give {least * 1e3:.3g} mm or more."
-        )
-    return found
-
-
-def _rubbed(scene: Scene) -> list[str]:
-    """Warnings of friction that takes the surface along."""
-    if not scene.effects["contact_friction"].on:
-        return []
-    found, single, friction = [], scene.case.single_shot, scene.case.dem.friction
-    if friction > LARGEST_FRICTION:
-        found.append(
-            f"dem.friction is {friction:g}: above {LARGEST_FRICTION:g} grazing shots take the surface along, strain "
-            "gathers in the first layer of elements, and finer ones change the answer."
-        )
-    elif single and single.angle < FLATTEST_GRAZE:
-        found.append(
-            f"single_shot.angle is {math.degrees(single.angle):.3g} deg: below {math.degrees(FLATTEST_GRAZE):.3g} deg "
-            "with friction strain gathers in the first layer of elements, and residual stress depends on their size."
         )
     return found

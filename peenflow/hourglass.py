@@ -1,9 +1,10 @@
-"""What share of the internal energy hourglass control will hold, before anything is computed."""
+"""What share of the internal energy hourglass control will hold, before anything is computed; and how much it may."""
 
 from peenflow.dent import predict
 from peenflow.records.material import Material
 from peenflow.scene import ShotProperties
 
+TOLERABLE = 0.1  # of the internal energy, beyond which the user is told
 USUAL = 0.05  # coefficient of hourglass stiffness for which the fit counts stiffness in λ + 2G over pressure
 
 # Fitted to 29 single hits of the stability suite: speeds of 20 to 300 m/s, six materials, (λ + 2G)/p of 30 to 800, a/R
@@ -30,3 +31,18 @@ def share(mesh_size: float, coefficient: float, speed: float, shot: ShotProperti
     flat = dent.radius / (0.5 * shot.diameter)
     x = FACTOR * stiffness**STIFFNESS * flat**SIZE * (mesh_size / dent.radius) ** ELEMENTS
     return x / (1 + x / MOST)
+
+
+def told(held: float, mesh_size: str) -> list[str]:
+    """What to tell of a run in which hourglass control held that share: a sentence, or none.
+
+    Args:
+        held: share of the internal energy at the end of the impacts.
+        mesh_size: the key in the case that sets the elements' size.
+    """
+    if held <= TOLERABLE:
+        return []
+    return [
+        f"Hourglass control holds {100 * held:.2g} % of the internal energy, more than {100 * TOLERABLE:.2g} %: the "
+        f"mesh is coarse for these dents. Lower {mesh_size} (the share goes with the power {ELEMENTS:.2g} of it)."
+    ]

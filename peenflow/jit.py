@@ -23,20 +23,20 @@ Decorator = Callable[[Any], Any]
 
 
 class _Clock(event.Listener):
-    """Counts the time of compilations; one that another sets off is part of it."""
+    """Counts the processor time of compilations; one that another sets off is part of it."""
 
     def __init__(self) -> None:
         self._depth, self._began = 0, 0.0
 
     def on_start(self, event: Any) -> None:
         if self._depth == 0:
-            self._began = time.perf_counter()
+            self._began = time.thread_time()
         self._depth += 1
 
     def on_end(self, event: Any) -> None:
         self._depth -= 1
         if self._depth == 0:
-            compiling.SPENT.seconds += time.perf_counter() - self._began
+            compiling.SPENT.seconds += time.thread_time() - self._began
 
 
 event.register("numba:compile", _Clock())  # type: ignore[no-untyped-call]

@@ -2,6 +2,9 @@
 
 The file is machine.json in $XDG_CACHE_HOME/peenflow (by default under ~/.cache). It counts for this processor and these
 solver sources only: another machine that shares the home directory, or another version, measures anew.
+
+Times are predicted for a machine that has nothing else to do. Where others were at work during the measurement, the
+processor's clock tells what one thread does, two are taken for twice as quick, and an hour later it is measured again.
 """
 
 import contextlib
@@ -9,6 +12,7 @@ import json
 import math
 import os
 import platform
+import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +26,8 @@ EDGE = 30  # elements along the edge of the cube that is timed
 YIELDING = 0.2  # share of its elements that yield: as in a run
 BUNDLES = 3
 LEAST_ELEMENTS = 20_000  # of a benchmark's cube that tells of a run's speed
+QUIET = 0.9  # share of its threads' time that the processor must have given to a measurement
+VALID = {True: 30 * 86400.0, False: 3600.0}  # s that a measurement counts, of a quiet machine and of another
 
 
 @dataclass(frozen=True)
@@ -30,6 +36,7 @@ class Machine:
 
     updates_per_s: Mapping[int, float]
     measured: bool  # False: that of another machine, for want of a measurement
+    settled: bool = False  # there is no need to measure it now
 
     def rate(self, threads: int) -> float:
         """Element updates a second on `threads` threads; beyond those measured, each doubling gains as the last."""
@@ -59,45 +66,53 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def memory() -> int:
+    """Of this machine [B]."""
+    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
 def known() -> Machine:
     """This machine as measured before, else `ELSEWHERE`."""
     try:
-        content = json.loads(_file().read_text())
+        content, age = json.loads(_file().read_text()), time.time() - _file().stat().st_mtime
         rates = {int(count): float(rate) for count, rate in content["updates_per_s"].items()}
         if content["key"] == _key() and rates[1] > 0:
-            return Machine(rates, measured=True)
+            return Machine(rates, measured=True, settled=age < VALID[content["quiet"]])
     except (OSError, ValueError, TypeError, KeyError, AttributeError):
         pass  # none, or none of this version: as good as not measured
     return ELSEWHERE
 
 
 def measured(progress: Progress) -> Machine:
-    """This machine, measured now (some seconds) if it was not before."""
+    """This machine, measured now (some seconds) if it was not before, or does not count any more."""
     found = known()
-    if found.measured:
+    if found.settled:
         return found
     from peenflow.bench import threads as bench_threads  # imports the solver, which takes its time
     from peenflow.bench import updates
 
-    progress.note("measuring this machine's speed, once")
+    progress.note("measuring this machine's speed")
     counts = dict.fromkeys(bench_threads.counts(), 1.0)
     return keep(updates.measure(EDGE, "structured", "float64", counts, BUNDLES)) or ELSEWHERE
 
 
 def keep(found: Iterable[Updates]) -> Machine | None:
     """Keep what a benchmark measured on cubes like a run's; None if there were none among them."""
-    rates: dict[int, float] = {}
+    rows: dict[int, Updates] = {}
     for row in found:
         alike = row.order == "structured" and row.precision == "float64" and abs(row.yielding - YIELDING) < 0.05
         if alike and row.elements >= LEAST_ELEMENTS:
-            rates.setdefault(row.threads, row.updates_per_s)  # the smallest such cube's
-    if 1 not in rates:
+            rows.setdefault(row.threads, row)  # the smallest such cube's
+    if 1 not in rows:
         return None
-    rates = {count: max(rate, rates[1]) for count, rate in rates.items()}  # less: another process had a core
-    content = {"key": _key(), "updates_per_s": {str(count): rate for count, rate in rates.items()}}
+    quiet = [row for row in rows.values() if row.cpu_share >= QUIET]
+    first = rows[1].updates_per_s / min(1.0, rows[1].cpu_share)
+    rates = {1: first} | {row.threads: max(row.updates_per_s, first) for row in quiet if row.threads > 1}
+    told = {str(count): rate for count, rate in rates.items()}
+    content = {"key": _key(), "updates_per_s": told, "quiet": len(quiet) == len(rows)}
     with contextlib.suppress(RunError):  # a cache that cannot be written is done without
         write_text_whole(_file(), json.dumps(content, indent=1) + "\n")
-    return Machine(rates, measured=True)
+    return Machine(rates, measured=True, settled=True)
 
 
 def _file() -> Path:

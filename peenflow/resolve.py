@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -21,9 +22,9 @@ from peenflow.records.material import Material
 from peenflow.repeats import dents_per_place, repeated_share
 from peenflow.scene import Decision, Scene, ShotProperties, Thrown
 from peenflow.study import choice
+from peenflow.study.expected import expected
 
 HARD = 0.5  # share of the fastest approach; how a softer hit comes has no say
-RESOLVED = 0.95  # share of the shots whose dents the mesh resolves
 GRAZING = 1e-9  # normal over whole speed, below which a hit is tangential
 
 
@@ -36,6 +37,7 @@ class Arrival:
     given: int = 0  # impacts in the case's table; 0: it has none
     flight: float | None = None  # m, from the nozzle to what they meet first, the longest; None: nothing flies
     slant: float | None = None  # tangential over normal speed, the most oblique hit's; None: the nozzles tell
+    normal_speed: float | None = None  # along the surface's normal, the hardest hit's; None: the nozzles tell
 
 
 def resolve(case: Case, directory: Path) -> Scene:
@@ -52,22 +54,22 @@ def resolve(case: Case, directory: Path) -> Scene:
             no setting is known that is as exact as accuracy.target, or as quick as accuracy.budget, asks for.
     """
     case, chosen = choice.settle(case, directory, _resolved)
-    return dataclasses.replace(_resolved(case, directory), chosen=chosen)
+    scene = _resolved(case, directory)
+    return dataclasses.replace(scene, chosen=chosen, mesh_error=expected(scene))
 
 
 def _resolved(case: Case, directory: Path) -> Scene:
     """The scene of a case whose accuracy is given by a preset and knobs."""
     surface = surfaces.of(case, directory)
-    target = case.target
-    material = library.material(
-        target.material, target.constants, target.johnson_cook, target.temperature, target.kinematic_hardening
-    )
+    material = library.of_target(case.target)
     thrown = shots.thrown(case.shot, case.shot.size_spread if case.nozzle else None)
     arrival = _arrival(case, directory, surface, thrown.shot.diameter)
     _, shot = _extremes(thrown, arrival)
     predicted = dent.predict(arrival.speed, shot, material)
     restitution = case.dem.restitution if isinstance(case.dem.restitution, float) else predicted.restitution
     slant = _steepest(case, surface, restitution) if arrival.slant is None else arrival.slant
+    normal_speed = _hardest(case, surface, restitution) if arrival.normal_speed is None else arrival.normal_speed
+    depth = patch_depth(case, shot, predicted.plastic_radius)
     situation = Situation(
         case=case,
         shot=shot,
@@ -75,10 +77,10 @@ def _resolved(case: Case, directory: Path) -> Scene:
         material=material,
         dent=predicted,
         restitution=restitution,
-        depth=patch_depth(case, shot) if surface is not None else CELL_WIDTH * shot.diameter / 2,
+        depth=depth if surface is not None else CELL_WIDTH * shot.diameter / 2,
         flight=arrival.flight,
         slant=slant,
-        normal_speed=_normal_speed(case.deflector, arrival.speed, slant, restitution),
+        normal_speed=normal_speed,
         plane_met=partial(surfaces.met, surface),
         repeats=_repeats(case, thrown, arrival, predicted.radius),
     )
@@ -95,12 +97,14 @@ def _resolved(case: Case, directory: Path) -> Scene:
         shot=shot,
         thrown=thrown,
         material=solved,
-        knobs=knobs(case, shot, solved, dents, effects["far_field"].on),
+        knobs=knobs(case, shot, solved, dents, depth, effects["far_field"].on),
         effects=effects,
         not_modelled=not_modelled(situation, shots.shot_material(case.shot.material, case.shot.constants).yield_stress),
         speed=arrival.speed,
         dent_radius=dents.largest.radius,
         contact_time=dents.largest.contact_time,
+        plastic_radius=predicted.plastic_radius,
+        normal_speed=normal_speed,
         engine=choose_engine(situation),
     )
 
@@ -115,15 +119,8 @@ def _with_effects(material: Material, effects: dict[str, Decision]) -> Material:
 
 
 def _extremes(thrown: Thrown, arrival: Arrival) -> tuple[ShotProperties, ShotProperties]:
-    """The smallest shot whose dents count, and the largest.
-
-    In a stream whose sizes scatter, few are so small that the mesh need not resolve their dents: `RESOLVED` of the
-    shots are at least as large as the smallest here.
-    """
-    small, large = arrival.diameters
-    if len(thrown.diameters) > 1:
-        larger = np.cumsum(thrown.shares[::-1])[::-1]  # share of the shots that are at least as large
-        small, large = float(thrown.diameters[larger >= RESOLVED][-1]), float(thrown.diameters[-1])
+    """The smallest shot whose dents the mesh must resolve, and the largest."""
+    small, large = shots.extremes(thrown) if len(thrown.diameters) > 1 else arrival.diameters
     return thrown.shot.sized(small), thrown.shot.sized(large)
 
 
@@ -156,14 +153,17 @@ def _arrival(case: Case, directory: Path, surface: Surface | None, diameter: flo
     """`diameter` [m] is that of [shot]."""
     one = (diameter, diameter)
     if case.single_shot:
-        return Arrival(case.single_shot.speed, one, slant=1 / math.tan(case.single_shot.angle))
+        single = case.single_shot
+        return Arrival(
+            single.speed, one, slant=1 / math.tan(single.angle), normal_speed=single.speed * math.sin(single.angle)
+        )
     if case.impacts and surface is not None:
-        table = read_impacts(directory / case.impacts.file, surface)
+        table = read_impacts(directory / case.impacts.file, case.impacts, surface, diameter)
         speed = np.linalg.norm(table.velocity, axis=1)
         normal = -np.einsum("ij,ij->i", table.velocity, surface.normals(table.point))
         given = one if table.diameter is None else (float(table.diameter.min()), float(table.diameter.max()))
         slant = float(np.max(np.sqrt(speed**2 - normal**2) / normal))
-        return Arrival(float(speed.max()), given, len(speed), slant=slant)
+        return Arrival(float(speed.max()), given, len(speed), slant=slant, normal_speed=float(normal.max()))
     if case.contacts and surface is not None:
         return _given_arrival(read_contacts(directory / case.contacts.file, case.contacts), surface, one)
     return Arrival(
@@ -197,7 +197,13 @@ def _given_arrival(table: ContactTable, surface: Surface, one: tuple[float, floa
     hard = normal >= HARD * normal.max()
     slant = np.sqrt(speed[hard] ** 2 - normal[hard] ** 2) / normal[hard]
     count = len(np.unique(table.shot[table.on_target]))
-    return Arrival(speed=float(speed[hard].max()), diameters=given, given=count, slant=float(slant.max()))
+    return Arrival(
+        speed=float(speed[hard].max()),
+        diameters=given,
+        given=count,
+        slant=float(slant.max()),
+        normal_speed=float(normal.max()),
+    )
 
 
 def _longest_flight(case: Case, surface: Surface | None) -> float:
@@ -208,12 +214,36 @@ def _longest_flight(case: Case, surface: Surface | None) -> float:
 
 def _steepest(case: Case, surface: Surface | None, restitution: float) -> float:
     """Tangential over normal speed of the nozzles' most oblique hits."""
-    if isinstance(surface, CadSurface):
-        angles = (surfaces.jet(surface, index, nozzle)[1] for index, nozzle in enumerate(case.nozzle))
-    else:
-        angles = (_angle(case, nozzle, restitution) for nozzle in case.nozzle)
-    widened = (angle + nozzle.cone / 2 for angle, nozzle in zip(angles, case.nozzle, strict=True))
+    widened = (most + nozzle.cone / 2 for nozzle, (_, most) in _angles(case, surface, restitution))
     return math.tan(min(max(widened), math.pi / 2 - GRAZING))
+
+
+def _hardest(case: Case, surface: Surface | None, restitution: float) -> float:
+    """Normal speed [m/s] of the nozzles' hardest first hits; shots that a rod turns stick to its face and roll off.
+
+    A solid sphere that sticks keeps 5/7 of its tangential speed (Walton's hard sphere).
+    """
+    rod = case.deflector
+    if rod is not None:
+        along, away = 5 / 7 * math.cos(rod.angle), restitution * math.sin(rod.angle)
+        turned = along * math.sin(rod.angle) + away * math.cos(rod.angle)
+        return turned * max(nozzle.speed for nozzle in case.nozzle)
+    squarest = (
+        nozzle.speed * math.cos(min(max(0.0, least - nozzle.cone / 2), math.pi / 2 - GRAZING))
+        for nozzle, (least, _) in _angles(case, surface, restitution)
+    )
+    return max(squarest)
+
+
+def _angles(case: Case, surface: Surface | None, restitution: float) -> Iterator[tuple[Nozzle, tuple[float, float]]]:
+    """Each nozzle with the least and largest angle [rad] from the normal of its first hits, without its cone."""
+    for index, nozzle in enumerate(case.nozzle):
+        if isinstance(surface, CadSurface):
+            _, *rays = surfaces.jet(surface, index, nozzle)
+            yield nozzle, (rays[0], rays[1])
+        else:
+            axis = _angle(case, nozzle, restitution)
+            yield nozzle, (axis, axis)
 
 
 def _flight(case: Case, nozzle: Nozzle) -> float:
@@ -247,17 +277,6 @@ def _deflected(rod: Deflector, restitution: float) -> float:
     radial = along * math.sin(rod.angle) + away * math.cos(rod.angle)
     axial = along * math.cos(rod.angle) - away * math.sin(rod.angle)
     return math.atan2(abs(axial), radial)
-
-
-def _normal_speed(rod: Deflector | None, speed: float, slant: float, restitution: float) -> float:
-    """Of the first hits on the target [m/s]; shots that a rod turns stick to its face and roll off.
-
-    A solid sphere that sticks keeps 5/7 of its tangential speed (Walton's hard sphere).
-    """
-    if rod is None:
-        return speed / math.hypot(1.0, slant)
-    along, away = 5 / 7 * math.cos(rod.angle), restitution * math.sin(rod.angle)
-    return speed * (along * math.sin(rod.angle) + away * math.cos(rod.angle))
 
 
 def _unit(nozzle: Nozzle) -> tuple[float, float, float]:

@@ -80,6 +80,15 @@ class Knobs:
 
 
 @dataclass(frozen=True)
+class MeshError:
+    """What error of the residual stress profile the mesh makes expect, over the profile's largest compression."""
+
+    error: float  # rms
+    elements_per_dent: float  # elements in the radius of the hardest hits' dents
+    source: str  # the case whose shipped study tells
+
+
+@dataclass(frozen=True)
 class Decision:
     """One effect, decided."""
 
@@ -124,7 +133,10 @@ class Scene:
     speed: float  # m/s, the fastest nozzle's (or single shot's, or impact's)
     dent_radius: float  # m, predicted by the closed form for `shot` at `speed`, normal incidence
     contact_time: float  # s, likewise
+    plastic_radius: float  # m, likewise, with all of the material's terms: how far down it yields
+    normal_speed: float  # m/s, along the surface's normal, of the hardest first hits
     engine: EngineChoice | None = None  # that throws the shots; None: nothing flies
+    mesh_error: MeshError | None = None  # None: nothing like it was studied
     chosen: str | None = None  # what accuracy.target or budget came to, in words; None: the case asks for neither
 
 

@@ -5,16 +5,20 @@ from pathlib import Path
 
 import numpy as np
 
+from peenflow import dent
 from peenflow.case import units
 from peenflow.case.accuracy import facet_size, patch_depth
+from peenflow.case.contacts_csv import read_contacts
+from peenflow.case.impacts_csv import speeds
 from peenflow.case.model import BoltHoleGeometry, Case, FilletGeometry, Nozzle, PlateGeometry, StepGeometry
 from peenflow.errors import InputError
 from peenflow.geometry import BoltHole, CadSurface, Plate, Surface
 from peenflow.geometry.cad import BladeRoot, StepFile, Wish, survey
 from peenflow.geometry.plane import Plane
 from peenflow.geometry.triangles import unit_normals
-from peenflow.materials import shots
+from peenflow.materials import library, shots
 
+PEENED_WITH = 1.0, 500.0  # m/s
 RIM_RAYS = 8  # of a jet, looked at beside its axis
 
 
@@ -34,8 +38,8 @@ def of(case: Case, directory: Path) -> Surface | None:
     return _faces(case, geometry, directory)
 
 
-def jet(surface: CadSurface, index: int, nozzle: Nozzle) -> tuple[float, float]:
-    """Flight [m] along the nozzle's axis, and the largest angle [rad] from the normal at which its jet arrives.
+def jet(surface: CadSurface, index: int, nozzle: Nozzle) -> tuple[float, float, float]:
+    """Flight [m] along the nozzle's axis, and the least and largest angle [rad] from the normal of its jet's rays.
 
     Raises:
         InputError: the axis misses the faces, or comes out of the metal.
@@ -52,14 +56,14 @@ def jet(surface: CadSurface, index: int, nozzle: Nozzle) -> tuple[float, float]:
     if met[0] is None or normals[met[0][1]] @ direction >= 0:
         fault = "misses target.geometry" if met[0] is None else "meets target.geometry from inside the metal"
         raise InputError(f"nozzle.{index}: its axis {fault}. Mend position or direction; both are in the part's frame.")
-    cosines = [-normals[hit[1]] @ direction for hit in met if hit is not None]
-    return met[0][0], math.acos(max(0.0, min(1.0, min(cosines))))
+    cosines = np.clip([-normals[hit[1]] @ direction for hit in met if hit is not None], 0.0, 1.0)
+    return met[0][0], math.acos(cosines.max()), math.acos(cosines.min())
 
 
 def _faces(case: Case, geometry: FilletGeometry | StepGeometry, directory: Path) -> CadSurface:
     patch = case.target.patch
     assert patch is not None, "checked with the case"
-    shot = shots.properties(case.shot)
+    small, large = shots.extremes(shots.thrown(case.shot, case.shot.size_spread))
     part: StepFile | BladeRoot
     if isinstance(geometry, StepGeometry):
         part = StepFile(directory / geometry.file, geometry.faces)
@@ -69,7 +73,26 @@ def _faces(case: Case, geometry: FilletGeometry | StepGeometry, directory: Path)
         x, y, z = in_fillet(geometry, units.to_si(patch.at[0], "m"), units.to_si(patch.at[1], "rad"))
     edges = facet_size(case)
     assert edges is not None, "there is a geometry"
-    return survey(part, Wish((x, y, z), patch.size, patch_depth(case, shot), shot.diameter, edges, bool(case.nozzle)))
+    shot = shots.properties(case.shot).sized(large)
+    yielding = dent.predict(_fastest(case, directory), shot, library.of_target(case.target)).plastic_radius
+    depth = patch_depth(case, shot, yielding)
+    return survey(part, Wish((x, y, z), patch.size, depth, (small, large), edges, bool(case.nozzle)))
+
+
+def _fastest(case: Case, directory: Path) -> float:
+    """Of the shots [m/s], within what is peened with; of a table's too, which cannot be checked before the surface is.
+
+    Raises:
+        InputError: the table cannot be read.
+    """
+    if case.impacts:
+        found = speeds(directory / case.impacts.file, case.impacts)
+    elif case.contacts:
+        table = read_contacts(directory / case.contacts.file, case.contacts)
+        found = np.linalg.norm(table.velocity[table.on_target], axis=1)
+    else:
+        found = np.array([nozzle.speed for nozzle in case.nozzle])
+    return float(np.clip(found.max(), *PEENED_WITH))
 
 
 def met(surface: Surface | None, start: np.ndarray, way: np.ndarray) -> Plane | None:

@@ -33,6 +33,7 @@ class Mean:
     impacts: int  # on the square
     least: float  # Pa, of the mean profile
     surface: float  # Pa
+    told: tuple[float | None, float | None]  # Pa, the standard errors of both that the run itself tells
     cpu_s: float  # of the stages that do not depend on the square
 
 
@@ -56,15 +57,19 @@ def section() -> list[str]:
         "",
         f"What chance leaves: {len(found)} seeds of a stream, means over squares of several sizes. Case `{CASE}` with "
         f"{told}; {cost:.3g} CPU s a seed. ± is the standard deviation of one seed; that of a mean over n seeds is √n "
-        "times smaller.",
+        "times smaller. *Told* is the standard error that a run tells of itself (`min_standard_error_Pa`, "
+        "`surface_standard_error_Pa`), its root mean square over the seeds; – where the square holds too few dents.",
         "",
-        "| side of the square, mm | impacts on it | least RCS, MPa | ± % | surface, MPa | ± % |",
-        "| ---: | ---: | ---: | ---: | ---: | ---: |",
+        "| side of the square, mm | impacts on it | least RCS, MPa | ± % | told, % | surface, MPa | ± % | told, % |",
+        "| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     for side, means in zip(AREAS, zip(*found, strict=True), strict=True):
         impacts = statistics.mean(mean.impacts for mean in means)
-        stresses = (scattered([mean.least for mean in means]), scattered([mean.surface for mean in means]))
-        lines.append(f"| {side:g} | {impacts:.3g} | {stresses[0]} | {stresses[1]} |")
+        least, surface = [mean.least for mean in means], [mean.surface for mean in means]
+        told = [alone([mean.told[i] for mean in means], stresses) for i, stresses in enumerate((least, surface))]
+        lines.append(
+            f"| {side:g} | {impacts:.3g} | {scattered(least)} | {told[0]} | {scattered(surface)} | {told[1]} |"
+        )
     return [*lines, ""]
 
 
@@ -72,6 +77,14 @@ def scattered(stresses: list[float]) -> str:
     """Mean [MPa] and standard deviation [% of it], as two cells."""
     mean = statistics.mean(stresses)
     return f"{mean * 1e-6:.0f} | {100 * statistics.stdev(stresses) / abs(mean):.2g}"
+
+
+def alone(errors: list[float | None], stresses: list[float]) -> str:
+    """What runs tell of their own scatter, rms [% of the mean stress], as a cell; – where not all could tell."""
+    known = [error for error in errors if error is not None]
+    if len(known) < len(errors):
+        return "–"
+    return f"{100 * statistics.mean(error**2 for error in known) ** 0.5 / abs(statistics.mean(stresses)):.2g}"
 
 
 def _measured(seed: int, side: float) -> Mean:
@@ -85,5 +98,6 @@ def _measured(seed: int, side: float) -> Mean:
         impacts=sum(max(abs(x), abs(y)) <= side * 0.5e-3 for x, y in places),
         least=summary["residual"]["min_Pa"],
         surface=summary["residual"]["surface_Pa"],
+        told=(summary["residual"]["min_standard_error_Pa"], summary["residual"]["surface_standard_error_Pa"]),
         cpu_s=cpu_seconds(summary["ledger"]),
     )

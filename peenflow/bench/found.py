@@ -19,6 +19,7 @@ class Updates:
     bytes_per_update: float  # by `peenflow.bench.traffic`
     share_of_limit: float  # updates_per_s · bytes_per_update over the triad's bandwidth on as many threads
     bytes_per_element: float  # of memory, in arrays of the solver beside its deck
+    cpu_share: float  # processor time over wall time and threads, of the best bundle: less than 1 where others work too
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ def document(found: Found) -> dict[str, Any]:
     """What `bench --json` prints; keys say their units."""
     solver = [dataclasses.asdict(updates) for updates in found.solver]
     for row in solver:
-        del row["median_updates_per_s"]  # how steady a figure is stands in the table, for people
+        del row["median_updates_per_s"], row["cpu_share"]  # how steady a figure is stands in the table, for people
     return {
         "triad_B_s": {str(threads): bandwidth for threads, bandwidth in found.triad.items()},
         "compile_s": {"cold": found.compile_cold, "cached": found.compile_cached},

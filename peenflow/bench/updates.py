@@ -51,7 +51,8 @@ def _on_threads(cube: Deck, threads: int, order: str, bandwidth: float, bundles:
                 f"The benchmark of {elements} elements meant {100 * share:g} % of them to yield, but "
                 f"{100 * yielding:g} % did: the material law is not what it was. Run the tests (make test)."
             )
-        best = elements * steps / min(times)
+        least, cpu = min(times)
+        best = elements * steps / least
         size = bytes_per_update(nodes, elements, yielding, solver.state.u.itemsize)
         yield Updates(
             elements=elements,
@@ -60,22 +61,23 @@ def _on_threads(cube: Deck, threads: int, order: str, bandwidth: float, bundles:
             order=order,
             yielding=round(yielding, 3),
             updates_per_s=best,
-            median_updates_per_s=elements * steps / statistics.median(times),
+            median_updates_per_s=elements * steps / statistics.median(wall for wall, _ in times),
             bytes_per_update=size,
             share_of_limit=best * size / bandwidth,
             bytes_per_element=held / elements,
+            cpu_share=cpu / (least * threads),
         )
 
 
-def _times(solver: Solver, share: float, steps: int, bundles: int) -> list[float]:
-    """Seconds of each bundle of `steps` steps, after a warm-up."""
+def _times(solver: Solver, share: float, steps: int, bundles: int) -> list[tuple[float, float]]:
+    """Wall and processor time [s] of each bundle of `steps` steps, after a warm-up."""
     set_in_motion(solver, share)
     for _ in range(WARM_UP):
         solver.step()
     times = []
     for _ in range(bundles):
-        began = time.perf_counter()
+        began, used = time.perf_counter(), time.process_time()
         for _ in range(steps):
             solver.step()
-        times.append(time.perf_counter() - began)
+        times.append((time.perf_counter() - began, time.process_time() - used))
     return times

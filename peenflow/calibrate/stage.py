@@ -7,6 +7,7 @@ material does not pay again.
 import hashlib
 import math
 import os
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -72,19 +73,23 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
 def run(inputs: Inputs, workdir: Path, progress: Progress) -> Calibration:
     """Calibrate, or take what an earlier case with the same inputs has left in the cache.
 
+    Finished hits are kept in `calibrate/` until all are: a run that was stopped goes on with the next.
+
     Raises:
         RunError: the solver failed on the unit cell.
     """
-    kept = _cache_file(inputs)
-    calibration = _from_cache(kept)
+    in_cache = _cache_file(inputs)
+    calibration = _from_cache(in_cache)
     if calibration is None:
-        from peenflow.calibrate.shoot import calibrate  # numba takes its time, and what only looks is to be quick
+        from peenflow.calibrate.kept import Kept  # numba takes its time, and what only looks is to be quick
+        from peenflow.calibrate.shoot import calibrate
 
-        calibration = calibrate(inputs, progress)
-        hdf5.save(calibration, kept)
+        calibration = calibrate(inputs, Kept(workdir / "calibrate", in_cache.stem), progress)
+        hdf5.save(calibration, in_cache)
     else:
-        progress.note(f"calibrate: the same shot and material were calibrated before ({kept})")
+        progress.note(f"calibrate: the same shot and material were calibrated before ({in_cache})")
     hdf5.save(calibration, workdir / "calibration.h5")
+    shutil.rmtree(workdir / "calibrate", ignore_errors=True)
     return calibration
 
 

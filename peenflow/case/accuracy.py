@@ -1,6 +1,8 @@
 """[accuracy]: what each preset sets, relative to the predicted dent and the shot, and what the case overrides."""
 
+import math
 from dataclasses import dataclass
+from typing import Literal
 
 from peenflow.case.model import Case, PlateGeometry
 from peenflow.dent import Dent, speed_for_depth
@@ -16,6 +18,10 @@ MARGIN = 1.0  # predicted dent radii between an impact that is loaded and the pa
 HOURGLASS = 0.05  # Flanagan and Belytschko's coefficient: docs/decisions/hourglass.md
 FACET_SIZES = {"plate": 8.0, "bolt-hole": 1.35, "fillet": SCATTER, "step": SCATTER}  # shot diameters; see `facet_size`
 SCATTERS = {"plate": 1.0, "bolt-hole": 1.0, "fillet": SCATTER, "step": SCATTER}  # facet size over the shortest edge
+BELOW_PLASTIC = (
+    1.75  # of the predicted plastic radius: half as deep again as the stress is compressive under soft metal
+)
+WHOLE = 1.5  # depths: of a plate that is hardly thicker all is meshed, rather than an infinite body put behind it
 GROUP_DISTANCE = 1.5  # shot diameters: two simultaneous hits change the residual stress by 0.5 % rms (1.0: 1.2 %)
 
 
@@ -39,13 +45,40 @@ PRESETS = {
     "fine": Preset(0.01, 5.0, 9.0, 3.2, 0.8, 0.0003, 0.002, 0.1),
 }
 
+SET_BY_PRESET = ("mesh_size", "calibration_mesh_size", "depth", "time_step", "relaxation", "dem_time_step")
+"""Knobs of [accuracy] that a preset sets where the case does not."""
 
-def patch_depth(case: Case, shot: ShotProperties) -> float:
-    """Depth of the FE patch [m]: accuracy.depth, else patch.depth, else the preset's, not more than the plate's."""
+
+def patch_depth(case: Case, shot: ShotProperties, plastic_radius: float) -> float:
+    """Depth of the FE patch [m]: accuracy.depth, else patch.depth, else `own_depth`, not more than the plate's.
+
+    A plate hardly thicker than its own depth is meshed through, unless the case asks for a body behind the patch.
+
+    Args:
+        case: a valid case.
+        shot: the largest.
+        plastic_radius: predicted under a normal hit with the case's speed [m]; 0 gives the least depth.
+    """
     patch, geometry = case.target.patch, case.target.geometry
     stated = case.accuracy.depth or (patch.depth if patch else None)
-    depth = stated or PRESETS[case.accuracy.preset].depth * shot.diameter
-    return min(depth, geometry.thickness) if isinstance(geometry, PlateGeometry) else depth
+    thickness = geometry.thickness if isinstance(geometry, PlateGeometry) else math.inf
+    if stated:
+        return min(stated, thickness)
+    depth = own_depth(case, shot, plastic_radius)
+    if far_field_switch(case) == "on":
+        return depth if depth < thickness else min(own_depth(case, shot, 0.0), thickness)
+    return thickness if thickness < WHOLE * depth else depth
+
+
+def own_depth(case: Case, shot: ShotProperties, plastic_radius: float) -> float:
+    """The preset's [m]; `BELOW_PLASTIC` plastic radii where metal is so soft, or hit so hard, that these are more."""
+    return max(PRESETS[case.accuracy.preset].depth * shot.diameter, BELOW_PLASTIC * plastic_radius)
+
+
+def far_field_switch(case: Case) -> Literal["auto", "on", "off"]:
+    """What the case says of a body behind the patch: by accuracy.boundary, or else by effects.far_field."""
+    wished: dict[str | None, Literal["on", "off"]] = {"far-field": "on", "fixed": "off"}
+    return wished.get(case.accuracy.boundary) or case.effects.far_field
 
 
 def facet_size(case: Case) -> float | None:
@@ -60,7 +93,7 @@ def facet_size(case: Case) -> float | None:
     geometry = case.target.geometry
     if geometry is None:
         return None
-    largest = float(shots.thrown(case.shot, case.shot.size_spread).diameters[-1])
+    _, largest = shots.extremes(shots.thrown(case.shot, case.shot.size_spread))
     return case.accuracy.facet_size or FACET_SIZES[geometry.kind] * largest
 
 
@@ -72,7 +105,7 @@ class Dents:
     smallest: Dent
 
 
-def knobs(case: Case, shot: ShotProperties, material: Material, dents: Dents, far_field: bool) -> Knobs:
+def knobs(case: Case, shot: ShotProperties, material: Material, dents: Dents, depth: float, far_field: bool) -> Knobs:
     """Every knob with the preset filled in.
 
     In a case that is a single shot, accuracy.mesh_size and the boundary are the unit cell's. min_normal_speed is where
@@ -83,6 +116,7 @@ def knobs(case: Case, shot: ShotProperties, material: Material, dents: Dents, fa
         shot: the largest.
         material: without the terms of effects that are off.
         dents: the smallest sets the patch's mesh, the largest all else.
+        depth: of the patch [m], see `patch_depth`.
         far_field: the effect's decision, which accuracy.boundary switches too.
     """
     given, preset = case.accuracy, PRESETS[case.accuracy.preset]
@@ -93,7 +127,7 @@ def knobs(case: Case, shot: ShotProperties, material: Material, dents: Dents, fa
     return Knobs(
         mesh_size=given.mesh_size or dents.smallest.radius / preset.elements_per_dent,
         calibration_mesh_size=given.calibration_mesh_size or own_cell or dent.radius / preset.cell_elements_per_dent,
-        depth=patch_depth(case, shot),
+        depth=depth,
         boundary="far-field" if far_field else "fixed",
         sides=given.sides,
         load=given.load,

@@ -49,11 +49,11 @@ def _in_fillet(geometry: FilletGeometry, patch: PatchSize) -> Iterator[Problem]:
 
 
 def blade_root(case: Case) -> Iterator[Problem]:
-    """The lengths of a blade's root against each other and against the shot."""
+    """The lengths of a blade's root against each other and against the largest shot."""
     root, path = case.target.geometry, ("target", "geometry")
     if not isinstance(root, FilletGeometry):
         return
-    shot = shots.properties(case.shot).diameter
+    _, shot = shots.extremes(shots.thrown(case.shot, case.shot.size_spread))
     if root.radius <= shot / 2:
         yield Problem((*path, "radius"), f"a shot of {shot * 1e3:.4g} mm does not fit into so tight a fillet")
     beside = (root.platform - root.thickness) / 2 - root.radius

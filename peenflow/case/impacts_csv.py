@@ -1,24 +1,23 @@
 """The table of impacts a case may give instead of nozzles."""
 
-import csv
-import math
-from array import array
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from peenflow.case import mapped_csv
+from peenflow.case.mapped_csv import POINT, VELOCITY, Column, Header, Lines, Source, Table
+from peenflow.case.model import ImpactsFile
 from peenflow.errors import InputError
-from peenflow.files import lines as lines_of
 from peenflow.geometry import Surface
 
-COLUMNS = ("t_s", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s")
-OPTIONAL = "diameter_m"
-MOST = 10_000_000  # rows
+COLUMNS = {"t": "t_s", "x": "x_m", "y": "y_m", "z": "z_m", "vx": "vx_m_s", "vy": "vy_m_s", "vz": "vz_m_s"}
+OPTIONAL = {"diameter": "diameter_m"}
 FASTEST = 500.0  # m/s; above, shots shatter and the material laws here were never measured
 FARTHEST = 1e3  # m, of a place, and s of a time
-ON_SURFACE = 1e-6  # m: how far from the surface a first touch may be written (rounding of the table)
+ON_SURFACE = 1e-6  # m: how far from the surface peenflow's own table may put a first touch (rounding)
+ADVICE = "Give where and how fast each sphere first touches the undeformed surface, in the target's frame"
+OTHERS = 'write units behind headers, columns.x = "header [mm]", and give raw rows of contact as [contacts]'
 
 
 @dataclass(frozen=True)
@@ -26,104 +25,101 @@ class ImpactTable:
     """Impacts in the target's frame, in the file's order."""
 
     t: np.ndarray  # s, (n,): when the sphere would first touch the undeformed surface
-    point: np.ndarray  # m, (n, 3): where
+    point: np.ndarray  # m, (n, 3): where; other tools' points lie up to a shot's diameter off the surface
     velocity: np.ndarray  # m/s, (n, 3): of the shot then
     diameter: np.ndarray | None  # m, (n,): of the shot; None: the case's
 
 
-def read_impacts(path: Path, surface: Surface | None = None) -> ImpactTable:
-    """Read columns t_s, x_m, y_m, z_m, vx_m_s, vy_m_s, vz_m_s and, optionally, diameter_m.
+def read_impacts(path: Path, section: ImpactsFile, surface: Surface, diameter: float) -> ImpactTable:
+    """Read the columns that `section` names, else those of peenflow's own tables (`COLUMNS`, `OPTIONAL`).
 
-    With `surface`, every point must lie on it and every velocity point into the metal.
+    Every velocity must point into the metal and every point lie on the surface: to a micrometre under peenflow's own
+    headers, to a shot's diameter under others, since other tools give points of facets, of overlaps, or the sphere's
+    centre, which all settle onto the surface below or above them.
+
+    Args:
+        path: of the table.
+        section: of the case file.
+        surface: of the target.
+        diameter: of the shots where the table has none [m].
 
     Raises:
-        InputError: no such file, a missing or unknown column, a cell that is not a finite number, no rows,
-            a negative diameter, a number too large to compute with, a point off the surface, a shot that does not
-            approach it; with file and line.
+        InputError: no such file, a missing column (in peenflow's own table: an unknown or double one, too), a header's
+            unit of another dimension, a cell that is not a finite number, no rows, a diameter that is not positive, a
+            number too large to compute with, a point off the surface, a shot that does not approach it; with file,
+            line and header.
     """
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as handle:
-            reader = csv.reader(lines_of(handle))
-            header = [name.strip() for name in next(reader, [])]
-            _check_header(path, header)
-            lines, numbers = array("q"), array("d")
-            for line, row in _numbers(path, header, reader):
-                lines.append(line)
-                numbers.extend(row)
-    except (OSError, ValueError, csv.Error) as error:
-        raise InputError(
-            f"The impacts' table {path} cannot be read: {error}. Correct [impacts] file in case.toml."
-        ) from error
-    if not lines:
-        raise InputError(f"The impacts' table {path} has no rows. Give at least one impact below the header.")
-    values = np.array(numbers).reshape(-1, len(header))
-    column = {name: values[:, i] for i, name in enumerate(header)}
-    table = ImpactTable(
-        t=column["t_s"],
-        point=np.stack([column[name] for name in COLUMNS[1:4]], axis=-1),
-        velocity=np.stack([column[name] for name in COLUMNS[4:7]], axis=-1),
-        diameter=column.get(OPTIONAL),
+    table, impacts = _read(path, section)
+    if section.columns is None:
+        _check_surface(table, impacts, surface, ON_SURFACE, f"{ADVICE}.")
+    else:
+        shots = diameter if impacts.diameter is None else impacts.diameter
+        _check_surface(table, impacts, surface, shots, f"{ADVICE}; {OTHERS}.")
+    return impacts
+
+
+def speeds(path: Path, section: ImpactsFile) -> np.ndarray:
+    """Of the shots (n,) [m/s], where the surface is not known yet.
+
+    Raises:
+        InputError: as `read_impacts`, but for places and directions, which are not looked at.
+    """
+    _, impacts = _read(path, section)
+    return np.asarray(np.linalg.norm(impacts.velocity, axis=1))
+
+
+def _read(path: Path, section: ImpactsFile) -> tuple[Table, ImpactTable]:
+    source = Source(path, "impacts")
+    with mapped_csv.opened(source) as lines:
+        if section.columns is None:
+            header = _own_header(source, lines)
+        else:
+            header = mapped_csv.find_header(source, lines, section.columns)
+        table = mapped_csv.read_rows(source, lines, header, FARTHEST)
+    impacts = ImpactTable(
+        t=table.values["t"],
+        point=table.vectors(POINT),
+        velocity=table.vectors(VELOCITY),
+        diameter=table.values.get("diameter"),
     )
-    _refuse(path, lines, table.diameter is not None and table.diameter <= 0, "diameter_m is not positive")
-    _refuse(path, lines, np.abs(values).max(axis=1) > FARTHEST, f"a number is above {FARTHEST:g}")
-    _refuse(path, lines, np.linalg.norm(table.velocity, axis=1) > FASTEST, f"the shot is faster than {FASTEST:g} m/s")
-    if surface is not None:
-        _check_surface(path, lines, table, surface)
-    return table
+    speed = np.linalg.norm(impacts.velocity, axis=1)
+    table.refuse(speed > FASTEST, VELOCITY, f"the shot is faster than {FASTEST:g} m/s", f"{ADVICE}.")
+    return table, impacts
 
 
-def _check_header(path: Path, header: list[str]) -> None:
-    missing = [name for name in COLUMNS if name not in header]
-    unknown = [name for name in header if name not in (*COLUMNS, OPTIONAL)]
-    if missing or unknown or len(set(header)) < len(header):
-        fault = f"lacks {', '.join(missing)}" if missing else f"has unknown or double columns: {', '.join(header)}"
-        raise InputError(
-            f"The impacts' table {path}, line 1, {fault}. "
-            f"Its columns are {', '.join(COLUMNS)} and, optionally, {OPTIONAL}."
-        )
-
-
-def _numbers(path: Path, header: list[str], reader: Iterator[list[str]]) -> Iterator[tuple[int, list[float]]]:
-    """Line number and numbers of each row that is not blank."""
-    for line, cells in enumerate(reader, start=2):
-        if not any(cell.strip() for cell in cells):
-            continue
-        if line > MOST:
-            raise InputError(f"The impacts' table {path} has more than {MOST} lines: split it into several cases.")
-        if len(cells) != len(header):
+def _own_header(source: Source, lines: Lines) -> Header:
+    """That of peenflow's own tables: line 1, in any order, nothing else in it."""
+    line = next(lines, "")
+    cells = mapped_csv.split(line, ",")
+    for delimiter, called in ((";", ";"), ("\t", "tabs")):
+        if set(COLUMNS.values()) <= set(mapped_csv.split(line, delimiter)):
             raise InputError(
-                f"The impacts' table {path}, line {line}, has {len(cells)} cells where {len(header)} are due. "
-                "Give one number a column, separated by commas."
+                f"{source}, line 1: its columns are parted by {called}. Write commas, and points in numbers."
             )
-        yield line, [_number(path, line, name, cell) for name, cell in zip(header, cells, strict=True)]
-
-
-def _number(path: Path, line: int, name: str, cell: str) -> float:
-    try:
-        value = float(cell)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
+    missing = [text for text in COLUMNS.values() if text not in cells]
+    unknown = set(cells) - {*COLUMNS.values(), *OPTIONAL.values()}
+    if missing or unknown or len(set(cells)) < len(cells):
+        fault = f"lacks {', '.join(missing)}" if missing else f"has unknown or double columns: {', '.join(cells)}"
         raise InputError(
-            f"The impacts' table {path}, line {line}, column {name}: {cell.strip()!r} is not a finite number. "
-            "Write a plain number in SI units."
+            f"{source}, line 1, {fault}. Its columns are {', '.join(COLUMNS.values())} and, optionally, "
+            f"{', '.join(OPTIONAL.values())}; where it has others, say in [impacts] columns which is what."
         )
-    return value
+    there = {name: text for name, text in (COLUMNS | OPTIONAL).items() if text in cells}
+    return Header({name: Column(text, cells.index(text), 1.0) for name, text in there.items()}, len(cells), ",")
 
 
-def _check_surface(path: Path, lines: Sequence[int], table: ImpactTable, surface: Surface) -> None:
-    height = surface.height(table.point)
-    _refuse(path, lines, height > ON_SURFACE, "the point lies above the target's surface, where nothing is touched yet")
-    _refuse(path, lines, height < -ON_SURFACE, "the point lies below the target's surface, inside the metal")
-    approach = -np.einsum("ij,ij->i", table.velocity, surface.normals(table.point))
-    _refuse(path, lines, approach <= 0, "the velocity does not point into the metal")
+def _check_surface(table: Table, impacts: ImpactTable, surface: Surface, near: float | np.ndarray, advice: str) -> None:
+    """Make sure that points lie `near` [m] the surface and velocities point into the metal.
 
-
-def _refuse(path: Path, lines: Sequence[int], wrong: np.ndarray | bool, fault: str) -> None:
-    rows = np.flatnonzero(wrong)
-    if rows.size:
-        more = f" (and {rows.size - 1} more rows)" if rows.size > 1 else ""
-        raise InputError(
-            f"The impacts' table {path}, line {lines[rows[0]]}: {fault}{more}. "
-            "Give where and how fast each sphere first touches the undeformed surface, in the target's frame."
-        )
+    Raises:
+        InputError: one does not.
+    """
+    height = surface.height(impacts.point)
+    wrong = np.abs(height) > near
+    first = height[np.argmax(wrong)]
+    side = "above the target's surface, where nothing is touched yet"
+    if first < 0:
+        side = "below the target's surface, inside the metal"
+    table.refuse(wrong, POINT, f"the point lies {abs(first) * 1e3:.3g} mm {side}", advice)
+    approach = -np.einsum("ij,ij->i", impacts.velocity, surface.normals(impacts.point))
+    table.refuse(approach <= 0, VELOCITY, "the velocity does not point into the metal", advice)

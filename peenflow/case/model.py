@@ -122,7 +122,6 @@ class StepGeometry(Section):
     faces: Annotated[tuple[int, ...], Field(min_length=1)]
 
 
-CadGeometry = FilletGeometry | StepGeometry
 Geometry = Annotated[PlateGeometry | BoltHoleGeometry | FilletGeometry | StepGeometry, Field(discriminator="kind")]
 
 
@@ -216,27 +215,33 @@ class SingleShot(Section):
     angle: Annotated[units.Angle, Field(gt=0, le=1.5707963267948968)] = 1.5707963267948966
 
 
-class ImpactsFile(Section):
-    """[impacts]: the case gives its impacts as a table."""
-
-    file: str
-
-
-class ContactColumns(Section):
-    """[contacts] columns: the headers of another tool's table; a unit in brackets ends one that is not in SI."""
+class ImpactColumns(Section):
+    """[impacts] columns: the headers of another tool's table; a unit in brackets ends one that is not in SI."""
 
     t: str
-    shot: str
     x: str
     y: str
     z: str
     vx: str
     vy: str
     vz: str
+    diameter: str | None = None
+
+
+class ImpactsFile(Section):
+    """[impacts]: the case gives its impacts as a table; without `columns` its headers are peenflow's own."""
+
+    file: str
+    columns: ImpactColumns | None = None
+
+
+class ContactColumns(ImpactColumns):
+    """[contacts] columns: those of impacts, and what tells contacts apart."""
+
+    shot: str
     fx: str | None = None
     fy: str | None = None
     fz: str | None = None
-    diameter: str | None = None
     surface: str | None = None
 
 
@@ -283,6 +288,7 @@ class Effects(Section):
     thermal_softening: Switch = "auto"
     kinematic_hardening: Switch = "auto"
     contact_friction: Switch = "auto"
+    shot_spin: Switch = "auto"
     shot_collisions: Switch = "auto"
     gravity: Switch = "auto"
     air_drag: Switch = "auto"

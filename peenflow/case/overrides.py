@@ -1,4 +1,4 @@
-"""`--set key=value`: values from the command line over those of the file."""
+"""`--set key=value`: values from the command line over those of the file; `--set key=` takes the file's away."""
 
 import copy
 import re
@@ -24,7 +24,8 @@ def apply(data: dict[str, Any], settings: Sequence[str]) -> tuple[dict[str, Any]
     """The file's data with `settings` in place, and the settings by their key's path.
 
     Raises:
-        InputError: a setting without "=", or a key that leads into something that is not a table.
+        InputError: a setting without "=", a key that leads into something that is not a table, or one without a value
+            whose key has none to take away.
     """
     data = copy.deepcopy(data)
     placed: dict[KeyPath, str] = {}
@@ -37,8 +38,9 @@ def apply(data: dict[str, Any], settings: Sequence[str]) -> tuple[dict[str, Any]
             )
         path = _place(data, parts, text.strip(), setting)
         placed[path] = setting
-    for path in placed:
-        _drop_twins(data, path, placed)
+    for path, setting in placed.items():
+        if setting.partition("=")[2].strip():
+            _drop_twins(data, path, placed)
     return data, placed
 
 
@@ -71,7 +73,13 @@ def _place(data: dict[str, Any], parts: list[str], text: str, setting: str) -> K
             raise InputError(f"--set {shortened(setting, LONGEST)}: {where} {what}")
         path = (*path, step)
         if len(path) == len(parts):
-            node[step] = _value(text, takes_text(path, data))
+            if text or isinstance(node, list):
+                node[step] = _value(text, takes_text(path, data))
+            elif node.pop(step, None) is None:
+                key = shortened(".".join(parts), LONGEST)
+                raise InputError(
+                    f"--set {shortened(setting, LONGEST)}: there is no {key} to take away; give a value after the ="
+                )
         else:
             node = node.setdefault(step, {}) if isinstance(node, dict) else node[step]
     return path

@@ -21,7 +21,7 @@ def _mm(length: float) -> str:
 
 def _largest(case: Case) -> float:
     """Diameter [m] of the largest shot that may be thrown."""
-    return float(shots.thrown(case.shot, case.shot.size_spread).diameters[-1])
+    return shots.extremes(shots.thrown(case.shot, case.shot.size_spread))[1]
 
 
 def _shot_in_hole(case: Case) -> Iterator[Problem]:
@@ -58,13 +58,13 @@ def _patch_in_part(case: Case) -> Iterator[Problem]:
 
 
 def _far_field(case: Case) -> Iterator[Problem]:
-    """A patch as deep as its plate has a free or supported back, nothing behind it."""
+    """A patch as deep as its plate has its back on a support, no body behind it."""
     geometry = case.target.geometry
     if not isinstance(geometry, PlateGeometry) or case.target.patch is None:
         return
     shot = shots.properties(case.shot).sized(_largest(case))
-    if patch_depth(case, shot) < geometry.thickness * (1 - 1e-9):
-        return
+    if patch_depth(case, shot, plastic_radius=0.0) < geometry.thickness * (1 - 1e-9):
+        return  # where it asks for a body behind, the plastic radius makes no patch as deep as the plate
     wishes = {("accuracy", "boundary"): case.accuracy.boundary, ("effects", "far_field"): case.effects.far_field}
     for key, wish in wishes.items():
         if wish in ("far-field", "on"):

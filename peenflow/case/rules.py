@@ -87,11 +87,11 @@ def _shot(case: Case) -> Iterator[Problem]:
 
 
 def _target(case: Case) -> Iterator[Problem]:
-    target = case.target
     try:
-        material = library.material(
-            target.material, target.constants, target.johnson_cook, target.temperature, target.kinematic_hardening
-        )
+        material = library.of_target(case.target)
+    except library.NoSofteningError as error:
+        yield Problem(("target", "temperature"), str(error))
+        return
     except InputError as error:
         yield Problem(("target", "material"), str(error))
         return

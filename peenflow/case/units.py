@@ -13,6 +13,7 @@ _NAME = r"(?:%|°?[^\W\d]\w*)(?:\s*(?:\*\*|\^)\s*[+-]?\d)?"  # of a unit, with a
 _JOIN = r"\s*(?:[*/·]|\s)\s*"
 _UNIT = rf"(?:1?\s*/\s*)?(?:{_NAME}|\({_NAME}(?:{_JOIN}{_NAME})*\))"
 _QUANTITY = re.compile(rf"[+-]?(?:\d+\.?\d*|\.\d+|nan|inf)(?:[eE][+-]?\d+)?\s*(?:{_UNIT}(?:{_JOIN}{_UNIT})*)?")
+_COMMA = re.compile(r"([+-]?\d*),(\d+(?!.*,).*)")
 _LONGEST = 60  # characters; pint would also compute "9**9**9", for ever
 
 RANGES = {
@@ -47,6 +48,8 @@ def to_si(text: Any, unit: str) -> float:
         given = "none" if quantity.unitless else f"{quantity.units}"
         raise ValueError(f"{text!r}: the unit is {given}, it must be convertible to {unit}") from error
     except Exception as error:  # pint raises its tokenizer's and Python's own errors on odd text
+        if pointed := with_point(text):
+            raise ValueError(f"{text!r}: write {pointed}, decimals take a point") from error
         raise ValueError(f'{text!r} is not a quantity: write a number and a unit, like "1 {unit}"') from error
     if not math.isfinite(value):
         raise ValueError(f"{text!r} is not a finite number")
@@ -54,6 +57,13 @@ def to_si(text: Any, unit: str) -> float:
     if value and not least <= abs(value) <= most:
         raise ValueError(f"{text!r} is beyond what can be computed: {least:g} to {most:g} {unit}, or 0")
     return value
+
+
+def with_point(text: str) -> str | None:
+    """One number with a decimal comma (and its unit, if any), with a point instead; None: it is something else."""
+    match = _COMMA.fullmatch(text.strip()[:_LONGEST])
+    pointed = match and f"{match[1]}.{match[2]}"
+    return pointed if pointed and _QUANTITY.fullmatch(pointed) else None
 
 
 def _reader(unit: str) -> BeforeValidator:

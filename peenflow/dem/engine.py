@@ -99,6 +99,7 @@ class Stream:
     seed: Annotated[int, of("1", "of the random numbers")]
     time_step_share: Annotated[float, of("1", "time step over the smallest shot's Rayleigh step")]
     interval: Annotated[int, of("1", "time steps between contact rows")]
+    spin: Annotated[bool, of("1", "contacts tell the shots' spins")]
 
     @property
     def time_step(self) -> float:

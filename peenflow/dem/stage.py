@@ -19,7 +19,6 @@ from peenflow.progress import Progress
 from peenflow.records import hdf5
 from peenflow.records.calibration import Calibration
 from peenflow.records.contacts import Contacts
-from peenflow.records.fields import quantities
 from peenflow.records.upstream import Upstream
 from peenflow.scene import EngineChoice, Scene, Skip
 
@@ -60,10 +59,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | tables.Given | Skip:
         shot=scene.thrown.shot,
         diameters=scene.thrown.diameters,
         shares=scene.thrown.shares,
-        nozzles=tuple(
-            _nozzle(section, scene.thrown.per_second(section), scene.effects["speed_spread"].on)
-            for section in case.nozzle
-        ),
+        nozzles=nozzles(scene),
         walls=Walls(
             triangles=target.facets.triangles,
             concave=isinstance(scene.surface, BoltHole),
@@ -78,6 +74,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | tables.Given | Skip:
         shot_collisions=scene.effects["shot_collisions"].on,
         air=Air(case.air.density, case.air.viscosity) if scene.effects["air_drag"].on else None,
         gravity=scene.effects["gravity"].on,
+        spin=scene.effects["shot_spin"].on,
         duration=case.exposure.duration,
         seed=case.exposure.seed,
         time_step_share=scene.knobs.dem_time_step,
@@ -125,11 +122,23 @@ def merge(shards: list[Contacts]) -> Contacts:
     renumbered = [dataclasses.replace(s, shot=s.shot + offset) for s, offset in zip(shards, first, strict=False)]
     order = np.argsort(np.concatenate([shard.t for shard in renumbered]), kind="stable")
     changed: dict[str, Any] = {
-        name: np.concatenate([getattr(shard, name) for shard in renumbered])[order]
-        for name, quantity in quantities(Contacts).items()
-        if quantity.shape
+        name: np.concatenate([getattr(shard, name) for shard in renumbered])[order] for name in shards[0].rows()
     }
     return dataclasses.replace(renumbered[0], **changed, shots=int(first[-1]))
+
+
+def nozzles(scene: Scene) -> tuple[Nozzle, ...]:
+    """As an engine takes them."""
+    return tuple(
+        _nozzle(section, scene.thrown.per_second(section), scene.effects["speed_spread"].on)
+        for section in scene.case.nozzle
+    )
+
+
+def _nozzle(section: NozzleSection, rate: float, scatters: bool) -> Nozzle:
+    spread = section.speed_spread.sigma if scatters and section.speed_spread else 0.0
+    x, y, z = (np.asarray(section.direction) / np.linalg.norm(section.direction)).tolist()
+    return Nozzle(section.position, (x, y, z), section.diameter, section.speed, spread, rate, section.cone)
 
 
 def _engine(choice: EngineChoice) -> Engine:
@@ -138,12 +147,6 @@ def _engine(choice: EngineChoice) -> Engine:
     from peenflow.dem.event_driven import EventDriven  # numba takes its time, and what only looks is to be quick
 
     return EventDriven()
-
-
-def _nozzle(section: NozzleSection, rate: float, scatters: bool) -> Nozzle:
-    spread = section.speed_spread.sigma if scatters and section.speed_spread else 0.0
-    x, y, z = (np.asarray(section.direction) / np.linalg.norm(section.direction)).tolist()
-    return Nozzle(section.position, (x, y, z), section.diameter, section.speed, spread, rate, section.cone)
 
 
 def _rod(deflector: Deflector, moves: bool) -> Rod:

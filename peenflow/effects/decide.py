@@ -1,5 +1,6 @@
 """On or off, with the number and the reason."""
 
+from peenflow.case.accuracy import far_field_switch
 from peenflow.case.model import Case
 from peenflow.effects.effect import Effect, Estimate, Situation
 from peenflow.effects.registry import EFFECTS
@@ -9,13 +10,17 @@ from peenflow.scene import Decision
 def decide(situation: Situation, tolerance: float) -> dict[str, Decision]:
     """Every effect decided: as the case says, else on where its estimate exceeds `tolerance`, the preset's.
 
-    An effect that does not apply (no flight, no such constants) is off whatever the case says.
+    An effect that does not apply (no flight, no such constants, another effect off) is off whatever the case says.
     """
-    return {effect.name: _decision(effect, situation, tolerance) for effect in EFFECTS}
+    decided: dict[str, Decision] = {}
+    for effect in EFFECTS:
+        applies = not effect.needs or decided[effect.needs].on
+        estimate = effect.estimate(situation) if applies else Estimate(None, f"{effect.needs} is off")
+        decided[effect.name] = _decision(effect, situation, estimate, tolerance)
+    return decided
 
 
-def _decision(effect: Effect, situation: Situation, tolerance: float) -> Decision:
-    estimate = effect.estimate(situation)
+def _decision(effect: Effect, situation: Situation, estimate: Estimate, tolerance: float) -> Decision:
     switch = _switch(effect, situation.case)
     return Decision(
         on=_is_on(switch, estimate, tolerance),
@@ -29,9 +34,7 @@ def _decision(effect: Effect, situation: Situation, tolerance: float) -> Decisio
 
 def _switch(effect: Effect, case: Case) -> str:
     """What the case says: [effects], or accuracy.boundary, which says the same of the far field."""
-    if effect.name == "far_field" and case.accuracy.boundary is not None:
-        return "on" if case.accuracy.boundary == "far-field" else "off"
-    return str(getattr(case.effects, effect.name))
+    return far_field_switch(case) if effect.name == "far_field" else str(getattr(case.effects, effect.name))
 
 
 def _is_on(switch: str, estimate: Estimate, tolerance: float) -> bool:

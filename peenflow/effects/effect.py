@@ -24,7 +24,7 @@ class Situation:
     restitution: float  # shot against wall in the DEM: the case's, or the predicted one where it is calibrated
     depth: float  # of the FE patch, or of the unit cell of a single shot
     flight: float | None  # m, from the nozzle to what the shots meet first; None: nothing flies
-    normal_speed: float  # m/s, of the fastest first hits on the target
+    normal_speed: float  # m/s, along the surface's normal, of the hardest first hits on the target
     slant: float  # tangential over normal speed of the hits, the most oblique ones'
     plane_met: Callable[[np.ndarray, np.ndarray], Plane | None]  # by a flight from a point (3,) along (3,)
     repeats: float  # share of the dented area that was dented before
@@ -47,3 +47,4 @@ class Effect:
     criterion: str  # formula with units and source
     cost: str  # what switching it on costs
     estimate: Callable[[Situation], Estimate]
+    needs: str = ""  # the effect without which it does not apply, decided before it

@@ -17,7 +17,7 @@ def _estimate(situation: Situation) -> Estimate:
     geometry, depth, a = situation.case.target.geometry, situation.depth, situation.dent.radius
     what = "unit cell" if situation.case.single_shot else "patch"
     if what == "patch" and isinstance(geometry, PlateGeometry) and geometry.thickness <= depth * (1 + 1e-9):
-        return Estimate(None, "the patch is as deep as the plate: nothing lies behind it")
+        return Estimate(None, "the patch is as deep as the plate, whose back lies on a rigid, frictionless support")
     return Estimate(
         min(1.0, NEARNESS * (a / depth) ** 2),
         f"dent radius {a * 1e6:.0f} µm, {what} {depth * 1e3:.3g} mm deep: what a fixed bottom sends back",

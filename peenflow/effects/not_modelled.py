@@ -1,24 +1,34 @@
 """What no run models, with the closed form's estimate of what it would change."""
 
 import dataclasses
-import math
 
 from peenflow import dent
-from peenflow.effects.contact_friction import STICKING
 from peenflow.effects.effect import Situation
+from peenflow.effects.thermal_softening import rise, softening
+from peenflow.records.material import ThermalSoftening
+from peenflow.repeats import dents_per_place
 from peenflow.scene import Limit
 
+# −(T_m/μ)·dμ/dT of the shear modulus: 0.5 of copper and aluminium, 0.6 of nickel, 0.9 of austenitic steel, 1.2 of
+# titanium (Frost and Ashby, Deformation-Mechanism Maps, 1982)
+LOOSENING = 0.6
 FIRST_YIELD, FULLY_PLASTIC = 1.07, 2.8  # mean pressure over yield stress (Johnson, Contact Mechanics, §6.1 and §6.3)
+# m²/s, of Ti-6Al-4V, 6.7 W/(m K) (ASM handbook), the library's worst conductor; Inconel 718 has 3.2e-6
+DIFFUSIVITY = 2.7e-6
 
 
 def not_modelled(situation: Situation, shot_yield: float | None) -> dict[str, Limit]:
     """What is left out of every run of this scene; `shot_yield` [Pa] is the shot's yield stress, None: not known."""
     found = {"shot_elasticity": _elasticity(situation), "shot_yielding": _yielding(situation, shot_yield)}
+    thermal = situation.material.thermal
+    if thermal is not None and thermal.initial > thermal.room:
+        found["warm_elasticity"] = _warm_elasticity(thermal)
     if situation.flight is not None:
         found["carrier_air"] = Limit(
             None, "the air stands still: no jet carries shots along, or out of a hole where slow ricochets linger"
         )
-        found["shot_spin"] = _spin(situation)
+        if situation.material.thermal is not None:
+            found["heat_between_hits"] = _heat(situation, situation.material.thermal)
     return found
 
 
@@ -34,6 +44,18 @@ def _elasticity(situation: Situation) -> Limit:
         f"the shot is rigid, the contact's modulus {rigid / 1e9:.0f} GPa instead of {both / 1e9:.0f} GPa: an elastic "
         f"shot leaves a shallower dent and rebounds with {softer.restitution:.2f} instead of "
         f"{situation.dent.restitution:.2f}",
+    )
+
+
+def _warm_elasticity(thermal: ThermalSoftening) -> Limit:
+    """Share of its elastic constants that a part hotter than the room has lost, by its melting point."""
+    above = thermal.initial - thermal.room
+    lost = LOOSENING * above / thermal.melt
+    return Limit(
+        lost,
+        f"the elastic constants do not follow target.temperature: {above:.0f} K above room a metal that melts at "
+        f"{thermal.melt:.0f} K has lost some {lost:.0%} of its stiffness, austenitic steel half as much again, "
+        "titanium twice as much; target.constants.young can be that of the hot part",
     )
 
 
@@ -56,30 +78,22 @@ def _yielding(situation: Situation, shot_yield: float | None) -> Limit:
     )
 
 
-def _spin(situation: Situation) -> Limit:
-    """Friction's impulse over the normal one, of hits with the spin that the rod gave over those without.
+def _heat(situation: Situation, thermal: ThermalSoftening) -> Limit:
+    """How much softer a place is by the heat that earlier hits have left there; an upper bound, by the diffusivity.
 
-    Of the speed v cos(α) along the rod's face a solid sphere that sticks turns 5/7 into its surface's, (5/2)(2/7); one
-    that slides (5/2) μ (1+e) v sin(α), if that is less. On the wall it adds to the slip, whose impulse is
-    (2/7) slip/(1+e) of the normal one, at most μ (Walton's hard sphere; `effects.contact_friction`).
+    Heat that lies like a bell of radius a under the surface, which lets none out, has (1 + 4 α t/a²)^(−3/2) of its
+    temperature left at its centre after t (conduction from an instantaneous source: Carslaw and Jaeger, §10.2). Over
+    hits at random, ν a second on a place, that adds up to ν a²/(2 α) of one hit's.
     """
-    rod, friction = situation.case.deflector, situation.case.dem.friction
-    if friction == 0:
-        return Limit(0.0, "dem.friction is 0: no contact feels a spin")
-    if rod is None:
-        return Limit(
-            0.0,
-            "in the finite elements shots arrive without spin: true of those that come from a nozzle, not of ricochets",
-        )
-    speed = max(nozzle.speed for nozzle in situation.case.nozzle)
-    sliding = friction * (1 + situation.restitution) * math.sin(rod.angle)
-    surface = 2.5 * min(STICKING * math.cos(rod.angle), sliding) * speed
-    without, with_spin = (
-        min(friction, STICKING * slip / (1 + situation.dent.restitution))
-        for slip in (situation.slant, situation.slant + surface / situation.normal_speed)
-    )
+    case, radius = situation.case, situation.dent.radius
+    leaves = radius**2 / (2 * DIFFUSIVITY)
+    thrown = sum(map(situation.thrown.per_second, case.nozzle))
+    left = dents_per_place(case, thrown * leaves, 0, radius, situation.flight or 0.0)
+    once = rise(situation, thermal)
+    softer = softening(thermal, thermal.initial + (1 + left) * once) - softening(thermal, thermal.initial + once)
     return Limit(
-        with_spin - without,
-        f"in the finite elements shots arrive without spin; off the rod their surface moves with {surface:.3g} m/s, "
-        f"which on the wall makes friction {with_spin:.1%} of the normal impulse instead of {without:.1%}",
+        softer,
+        "where thermal softening is on, each group of impacts meets the part at its initial temperature; "
+        f"{left / leaves:.3g} hits a second fall on a place, and in the worst conductor a hit's heat leaves in "
+        f"{1e3 * leaves:.2g} ms, so that the next one meets {left:.2g} of it at most",
     )

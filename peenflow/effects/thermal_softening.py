@@ -2,17 +2,32 @@
 
 from peenflow.dent import flow_stress
 from peenflow.effects.effect import Effect, Estimate, Situation
+from peenflow.records.material import ThermalSoftening
+
+
+def rise(situation: Situation, thermal: ThermalSoftening) -> float:
+    """Adiabatic, of one hit at the dent's representative strain [K]."""
+    dent = situation.dent
+    work = flow_stress(situation.material, dent.strain, dent.strain_rate) * dent.strain
+    return thermal.taylor_quinney * work / (situation.material.density * thermal.heat_capacity)
+
+
+def softening(thermal: ThermalSoftening, temperature: float) -> float:
+    """Share of the flow stress that is gone at a temperature [K]."""
+    above = max(0.0, temperature - thermal.room)
+    return min(1.0, (above / (thermal.melt - thermal.room)) ** thermal.m)
 
 
 def _estimate(situation: Situation) -> Estimate:
-    thermal, dent = situation.material.thermal, situation.dent
+    thermal = situation.material.thermal
     if thermal is None:
         return Estimate(None, "the material has no m, melt or heat_capacity")
-    work = flow_stress(situation.material, dent.strain, dent.strain_rate) * dent.strain
-    rise = thermal.taylor_quinney * work / (situation.material.density * thermal.heat_capacity)
-    above = max(0.0, thermal.initial + rise - thermal.room)
-    share = min(1.0, (above / (thermal.melt - thermal.room)) ** thermal.m)
-    return Estimate(share, f"adiabatic rise {rise:.0f} K under the dent, {above:.0f} K above room, on the flow stress")
+    warmer = rise(situation, thermal)
+    above = max(0.0, thermal.initial + warmer - thermal.room)
+    return Estimate(
+        softening(thermal, thermal.initial + warmer),
+        f"adiabatic rise {warmer:.0f} K under the dent, {above:.0f} K above room, on the flow stress",
+    )
 
 
 EFFECT = Effect(

@@ -14,7 +14,10 @@ CLEARANCE = 0.05
 
 
 def initial(model: Model) -> Balls:
-    """All spheres where they would be at t = 0; one centred on a symmetry plane is halved and kept on it."""
+    """All spheres where they would be at t = 0; one centred on a symmetry plane is halved and kept on it.
+
+    Of its spin it keeps what its mirror image has too: the part along the plane's normal.
+    """
     spheres = model.spheres
     if spheres is None:
         none, vectors, tensors = np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3, 3))
@@ -26,6 +29,7 @@ def initial(model: Model) -> Balls:
     centre = centres(spheres, 0.0)
     touch = spheres.point + radius[:, None] * spheres.normal
     velocity = spheres.velocity.astype(float)
+    spin = np.zeros((count, 3)) if spheres.spin is None else spheres.spin.astype(float)
     for point, normal in model.mirrors:
         on_plane = np.abs((touch - point) @ normal) < 1e-6 * radius
         mirror = np.outer(normal, normal)
@@ -33,8 +37,9 @@ def initial(model: Model) -> Balls:
         projector[on_plane] = projector[on_plane] @ (np.eye(3) - mirror)
         turning[on_plane] = turning[on_plane] @ mirror
         velocity[on_plane] -= np.outer(velocity[on_plane] @ normal, normal)
+    spin = np.einsum("sij,sj->si", turning, spin)
     phase, left = np.full(count, WAITING, np.int64), np.full(count, np.nan)
-    return Balls(radius, mass, projector, turning, centre, velocity, np.zeros((count, 3)), phase, left)
+    return Balls(radius, mass, projector, turning, centre, velocity, spin, phase, left)
 
 
 def centres(spheres: Spheres, t: float) -> np.ndarray:

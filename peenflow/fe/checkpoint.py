@@ -13,7 +13,8 @@ from peenflow.fe.solver import FIELDS, Solver
 from peenflow.files import written_whole
 from peenflow.records.deck import Deck
 
-SCALARS = ("step", "time", "dt", "last_dt", "first_dt", "relaxing_since", "hourglass_ratio", "retries", "damping")
+COUNTS = ("step", "retries", "groups_begun")
+SCALARS = (*COUNTS, "time", "dt", "last_dt", "first_dt", "relaxing_since", "hourglass_ratio", "damping")
 ARRAYS = (*FIELDS, "active")
 SUMS = ("kinetic", "shots", "contact", "friction", "absorbed", "relaxed", "work", "dormant")
 
@@ -56,8 +57,7 @@ def resume(solver: Solver, path: Path) -> bool:
     for name in ARRAYS:
         setattr(state, name, saved[name])
     for name, value in zip(SCALARS, saved["scalars"], strict=True):
-        setattr(state, name, float(value))
-    state.step, state.retries = int(state.step), int(state.retries)
+        setattr(state, name, int(value) if name in COUNTS else float(value))
     state.balls = Balls(*(saved[f"ball_{name}"] for name in Balls._fields))
     for name, value in zip(SUMS, saved["sums"], strict=True):
         setattr(state.ledger, name, float(value))

@@ -1,10 +1,12 @@
 """The FE deck in motion, then at rest."""
 
+import dataclasses
 from pathlib import Path
 
 import numba
 import numpy as np
 
+from peenflow import hourglass
 from peenflow.compiling import working_clock
 from peenflow.errors import RunError
 from peenflow.fe import checkpoint, outcome
@@ -17,7 +19,6 @@ from peenflow.records.deck import Deck
 from peenflow.records.response import Response
 
 RELAXATION_SHARE = 0.2  # of the bar
-LARGEST_HOURGLASS = 0.1  # of the internal energy, beyond which the user is told
 LAST_GOOD = Path("last-good") / "response.vtu"  # beside the checkpoint
 
 
@@ -38,9 +39,9 @@ def solve(deck: Deck, path: Path, progress: Progress) -> Response:
         write_state(solver, kept)
         raise RunError(f"{end} The last good state, of step {solver.state.step}, lies in {kept}.") from end
     elapsed = max(working_clock() - began, 1e-9)
-    _check(solver, residual, progress)
+    notes = _check(solver, residual, progress)
     rate = solver.model.elements * (solver.state.step - first_step) / elapsed
-    return outcome.response(solver, residual, rate)
+    return dataclasses.replace(outcome.response(solver, residual, rate), notes=notes)
 
 
 def _advance(solver: Solver, path: Path, progress: Progress) -> float:
@@ -72,27 +73,32 @@ def _advance(solver: Solver, path: Path, progress: Progress) -> float:
                 progress.note(guard.go_back(trouble))
 
 
-def _check(solver: Solver, residual: float, progress: Progress) -> None:
-    """Hold the finished run to the deck's limits.
+def _check(solver: Solver, residual: float, progress: Progress) -> tuple[str, ...]:
+    """Hold the finished run to the deck's limits; tell, and return, what makes one doubt it.
 
     Raises:
         RunError: the energy error exceeds the limit.
     """
-    controls, ledger = solver.deck.controls, solver.state.ledger
-    if solver.state.hourglass_ratio > LARGEST_HOURGLASS:
-        progress.note(
-            f"hourglass control holds {100 * solver.state.hourglass_ratio:.2g} % of the internal energy, more than "
-            f"{100 * LARGEST_HOURGLASS:.2g} %: the mesh is coarse for these dents; lower accuracy.mesh_size"
+    controls, state = solver.deck.controls, solver.state
+    notes = hourglass.told(state.hourglass_ratio, "accuracy.mesh_size")
+    if state.retries:
+        notes.append(
+            f"The solver went back to an earlier state {state.retries} times and went on with smaller steps; log.txt "
+            "says where and why. Compare with a run at half the accuracy.time_step."
         )
-    if ledger.error > controls.energy_error_limit:
+    if residual > controls.relaxation:
+        notes.append(
+            f"Relaxation stopped at a residual of {100 * residual:.2g} % after {controls.relaxation_time * 1e6:.3g} µs "
+            f"(asked for {100 * controls.relaxation:.2g} %): stresses swing by about that share. Count it among their "
+            "errors."
+        )
+    for note in notes:
+        progress.note(note)
+    if state.ledger.error > controls.energy_error_limit:
         raise RunError(
-            f"At the end of the run ({1e6 * solver.state.time:.4g} µs) the energy balance is off by "
-            f"{100 * ledger.error:.2g} % of all energy brought in, above the limit of "
+            f"At the end of the run ({1e6 * state.time:.4g} µs) the energy balance is off by "
+            f"{100 * state.ledger.error:.2g} % of all energy brought in, above the limit of "
             f"{100 * controls.energy_error_limit:.2g} % (deck.toml, energy_error_limit). Lower accuracy.time_step or "
             "refine accuracy.mesh_size, then run again."
         )
-    if residual > controls.relaxation:
-        progress.note(
-            f"relaxation stopped at a residual of {100 * residual:.2g} % after {controls.relaxation_time * 1e6:.3g} µs "
-            f"(asked for {100 * controls.relaxation:.2g} %): stresses swing by about that share"
-        )
+    return tuple(notes)

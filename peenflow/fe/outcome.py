@@ -73,11 +73,12 @@ def response(solver: Solver, residual: float, updates_per_s: float) -> Response:
     """The record of the stage."""
     stress, volumes = stresses(solver)
     state = solver.state
+    highest = element_values(solver, np.maximum(state.hottest, state.temperature)) if solver.model.thermal else None
     return Response(
         displacement=in_order_of_deck(state.u.astype(float), solver.order.nodes),
         stress=in_order_of_deck(stress, solver.order.elements),
         peeq=element_values(solver, state.peeq),
-        temperature=element_values(solver, state.temperature) if solver.model.thermal else None,
+        temperature=highest,
         spheres=sphere_results(solver),
         energies=state.ledger.history(),
         energy_error=state.ledger.error,

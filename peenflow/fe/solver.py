@@ -31,7 +31,7 @@ class UnstableError(RunError):
         self.short = short
 
 
-FIELDS = ("u", "v", "force", "deviator", "peeq", "temperature", "backstress")  # of a state, in the deck's precision
+FIELDS = ("u", "v", "force", "deviator", "peeq", "temperature", "hottest", "backstress")  # in the deck's precision
 
 
 @dataclass
@@ -48,6 +48,7 @@ class State:
     deviator: np.ndarray  # (b, 5·LANES) Pa
     peeq: np.ndarray  # (b, LANES)
     temperature: np.ndarray  # (b, LANES) K
+    hottest: np.ndarray  # (b, LANES) K, in groups before the present one; one block where nothing softens
     backstress: np.ndarray  # (b, 5·LANES) Pa, static; one block where there is none
     active: np.ndarray  # numbers of the blocks of elements that take part
     balls: Balls
@@ -57,6 +58,7 @@ class State:
     relaxing_since: float = np.nan  # s, NaN while impacts go on
     hourglass_ratio: float = 0.0  # at the end of the impacts
     damping: float = 0.04  # share of its velocity that a node loses each step of the relaxation
+    groups_begun: int = 0
     retries: int = 0  # times the guard went back, each with smaller steps
 
 
@@ -92,6 +94,7 @@ class Solver:
             deviator=np.zeros((b, 5 * LANES), real),
             peeq=np.zeros((b, LANES), real),
             temperature=np.full((b, LANES), thermal.initial if thermal else 0.0, real),
+            hottest=np.full((b if thermal else 1, LANES), thermal.initial if thermal else 0.0, real),
             backstress=np.zeros((b if model.kinematic else 1, 5 * LANES), real),
             active=activity.everywhere(model),
             balls=spheres.initial(model),
@@ -117,12 +120,11 @@ class Solver:
         self.as_in_motion()
 
     def take_over(self, earlier: "Solver") -> None:
-        """Start from where an earlier run of the same mesh came to rest."""
+        """Start from where an earlier run of the same mesh came to rest, its heat gone (`_cool`)."""
         state, before = self.state, earlier.state
         state.u, state.force = before.u.copy(), before.force.copy()
-        state.deviator, state.peeq, state.temperature, state.backstress = (
-            a.copy() for a in (before.deviator, before.peeq, before.temperature, before.backstress)
-        )
+        state.deviator, state.peeq = before.deviator.copy(), before.peeq.copy()
+        state.backstress = before.backstress.copy()
         # internal energy counts from here, hourglass energy is what elements hold: of that, this much is brought along
         state.ledger.work += before.ledger.of_elements(HOURGLASS)
 
@@ -155,6 +157,7 @@ class Solver:
         state = self.state
         state.dt = self.stable_step()
         state.first_dt = state.first_dt or state.dt
+        self._cool(state.time + BUNDLE * state.dt)
         if self.model.spheres is not None:
             horizon = BUNDLE * state.dt
             spheres.update_phases(state.balls, self.model.spheres, state.time, 2 * horizon)
@@ -166,6 +169,20 @@ class Solver:
                 after_step(self)
         state.ledger.sample(state.time)
         self._look()
+
+    def _cool(self, until: float) -> None:
+        """Back to the part's initial temperature where a group of impacts starts before `until` [s].
+
+        A hit is adiabatic. Groups stand for hits on one place that are further apart than its heat needs to leave.
+        """
+        state, starts, thermal = self.state, self.deck.group_starts, self.deck.material.thermal
+        if starts is None or thermal is None:
+            return
+        begun = int(np.searchsorted(starts, until))
+        if begun > state.groups_begun:
+            np.maximum(state.hottest, state.temperature, out=state.hottest)
+            state.temperature[:] = thermal.initial
+            state.groups_begun = begun
 
     def list_candidates(self, horizon: float) -> None:
         """Surface nodes that spheres may touch within `horizon` seconds."""
@@ -194,12 +211,12 @@ class Solver:
             return
         hourglass = []
         for part in (activity.everywhere(self.model), blocks):
-            self.activity = activity.of_blocks(self.model, part)
+            state.active = part
+            self._take_up()
             state.force[:] = 0.0
             self.update_forces(0.0)
             hourglass.append(float(state.ledger.elements[:, HOURGLASS].sum()))
-        state.active, state.ledger.dormant = blocks, hourglass[0] - hourglass[1]
-        self._take_up()
+        state.ledger.dormant = hourglass[0] - hourglass[1]
         standing = ~self.activity.awake
         speeds = np.einsum("ij,ij->i", state.v[standing], state.v[standing])
         state.ledger.absorbed += 0.5 * float(self.mass[standing] @ speeds)

@@ -76,26 +76,38 @@ def render(job: Job, allocation: Allocation, scheduler: Scheduler) -> str:
         name=_job_name(job.title),
         allocation=allocation,
         clock=None if allocation.time is None else _clock(allocation.time),
-        megabytes=None if allocation.memory is None else _megabytes(allocation.memory),
+        megabytes=None if allocation.memory is None else megabytes(allocation.memory),
         command=shlex.join(job.command),
     )
 
 
 def _clock(text: str) -> str:
     """Hours:minutes:seconds, which both schedulers read alike, of a duration as [hpc] has it."""
-    if found := _CLOCK.fullmatch(text):
-        days, hours, minutes, seconds = (int(part or 0) for part in found.groups())
-        total = ((days * 24 + hours) * 60 + minutes) * 60 + seconds
-    else:
-        try:
-            total = round(to_si(text, "s"))
-        except ValueError as error:
-            raise InputError(f'[hpc] time is {text!r}: write it like "12:00:00", "1-12:00:00" or "90 min".') from error
+    total = seconds(text)
     return f"{total // 3600:02d}:{total // 60 % 60:02d}:{total % 60:02d}"
 
 
-def _megabytes(text: str) -> int:
-    """Of a memory size as [hpc] has it, by powers of 1024 as the schedulers count."""
+def seconds(text: str) -> int:
+    """Of a duration as [hpc] has it.
+
+    Raises:
+        InputError: it is none.
+    """
+    if found := _CLOCK.fullmatch(text):
+        days, hours, minutes, rest = (int(part or 0) for part in found.groups())
+        return ((days * 24 + hours) * 60 + minutes) * 60 + rest
+    try:
+        return round(to_si(text, "s"))
+    except ValueError as error:
+        raise InputError(f'[hpc] time is {text!r}: write it like "12:00:00", "1-12:00:00" or "90 min".') from error
+
+
+def megabytes(text: str) -> int:
+    """Of a memory size as [hpc] has it, by powers of 1024 as the schedulers count.
+
+    Raises:
+        InputError: it is none.
+    """
     found = _MEMORY.fullmatch(text)
     if not found:
         raise InputError(f'[hpc] memory is {text!r}: write a number with M, G or T, like "8 GB".')

@@ -41,13 +41,14 @@ class _Hits:
     peak_force: np.ndarray
     diameter: np.ndarray
     shot: np.ndarray
+    spin: np.ndarray | None = None
 
 
 def from_contacts(contacts: Contacts, surface: Surface, rules: Rules) -> Impacts:
     """Join the rows of one shot on the target that follow each other into impacts, and sift them by the rules.
 
-    An impact takes its velocity from its first row and its place from the row of its largest force, put onto the true
-    surface.
+    An impact takes its velocity and spin from its first row and its place from the row of its largest force, put onto
+    the true surface.
 
     Args:
         contacts: rows of all surfaces. Where both its interval and its time step are 0, each row is a hit.
@@ -74,6 +75,7 @@ def from_contacts(contacts: Contacts, surface: Surface, rules: Rules) -> Impacts
         peak_force=force[hardest],
         diameter=contacts.diameter[first],
         shot=contacts.shot[first],
+        spin=None if contacts.spin is None else contacts.spin[first],
     )
     counts = {
         "rows": len(rows),
@@ -84,7 +86,7 @@ def from_contacts(contacts: Contacts, surface: Surface, rules: Rules) -> Impacts
 
 
 def from_table(table: ImpactTable, surface: Surface, diameter: float, rules: Rules) -> Impacts:
-    """Impacts that the case gives; `diameter` [m] where the table has none. Shots are the table's rows from 0."""
+    """Impacts that the case gives, without spin; `diameter` [m] where the table has none. Shots are its rows from 0."""
     number = len(table.t)
     hits = _Hits(
         t=table.t,
@@ -108,7 +110,8 @@ def rows_on_target(contacts: Contacts) -> np.ndarray:
 def remove_edge_doubles(contacts: Contacts, rows: np.ndarray) -> Samples:
     """One row of those that an edge between facets doubled: rows of one shot at one time are one contact.
 
-    Their forces add, as the engine adds them; of place and velocity, those of the facet that pushes hardest are kept.
+    Their forces add, as the engine adds them; of place, velocity and spin, those of the facet that pushes hardest are
+    kept.
     (The method's paper keeps one of the rows, which loses the others' force.)
 
     Args:
@@ -172,4 +175,5 @@ def _sifted(hits: _Hits, surface: Surface, rules: Rules, counts: dict[str, int])
         min_normal_speed=rules.min_normal_speed,
         shots_hitting=len(np.unique(hits.shot)),
         groups=0,
+        spin=None if hits.spin is None else hits.spin[kept],
     )

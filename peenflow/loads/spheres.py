@@ -1,4 +1,4 @@
-"""Impacts as rigid spheres that arrive with the DEM's velocity."""
+"""Impacts as rigid spheres that arrive with the DEM's velocity and spin."""
 
 import numpy as np
 
@@ -7,7 +7,10 @@ from peenflow.records.impacts import Impacts
 
 
 def spheres(impacts: Impacts, placement: Placement, density: float, friction: float) -> Spheres:
-    """The impacts on the patch as spheres in its frame; `density` [kg/m³], Coulomb `friction` (0: none)."""
+    """The impacts on the patch as spheres in its frame; `density` [kg/m³], Coulomb `friction` (0: none).
+
+    Spins turn as velocities do: the patch's frame is the part's, rotated; a mirrored one would reverse them.
+    """
     borne = impacts.on_patch
     return Spheres(
         diameter=impacts.diameter[borne],
@@ -17,4 +20,5 @@ def spheres(impacts: Impacts, placement: Placement, density: float, friction: fl
         velocity=impacts.velocity[borne] @ placement.rotation,
         t_start=impacts.t_start[borne],
         friction=friction,
+        spin=None if impacts.spin is None else impacts.spin[borne] @ placement.rotation,
     )

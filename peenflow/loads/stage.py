@@ -78,8 +78,10 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
     case, knobs, patch = scene.case, scene.knobs, scene.case.target.patch
     if scene.surface is None or patch is None or upstream.target is None:
         return Skip("a single shot has no impacts to translate")
-    given = case.impacts
-    hits = read_impacts(scene.directory / given.file, scene.surface) if given else upstream.contacts
+    hits: Contacts | ImpactTable | None = upstream.contacts
+    if case.impacts:
+        file = scene.directory / case.impacts.file
+        hits = read_impacts(file, case.impacts, scene.surface, scene.shot.diameter)
     if hits is None:
         return Skip("there are no contacts")
     return Inputs(
@@ -204,6 +206,7 @@ def _deck(inputs: Inputs, impacts: Impacts, placement: Placement) -> Deck:
         far_fields=(far,) if inputs.boundary == "far-field" else (),
         spheres=spheres(impacts, placement, inputs.shot_density, inputs.friction) if by_sphere else None,
         pressures=pressures,
+        group_starts=None if inputs.group_distance is None else np.unique(impacts.t_start[impacts.on_patch]),
     )
 
 

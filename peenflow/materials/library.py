@@ -6,13 +6,17 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from peenflow.case.model import Constants, JohnsonCookConstants, KinematicHardeningConstants, Section
+from peenflow.case.model import Constants, JohnsonCookConstants, KinematicHardeningConstants, Section, TargetSection
 from peenflow.errors import InputError
 from peenflow.records.material import KinematicHardening, Material, RateHardening, ThermalSoftening
 
 ROOM = 293.15  # K, T0 of sets that name none
 TAYLOR_QUINNEY = 0.9  # of metals at high rates, as in Johnson and Cook (1983)
 REFERENCE_RATE = 1.0  # 1/s, as there
+
+
+class NoSofteningError(InputError):
+    """The part is hot, and the set does not say what heat does to it."""
 
 
 @cache
@@ -50,6 +54,7 @@ def material(
 
     Raises:
         InputError: an unknown name without constants of its own, or constants that are missing.
+        NoSofteningError: a part hotter than the room, and constants of softening that are missing.
     """
     row = table().get(name, {})
     elastic = _merged(Constants, {key: row[key] for key in Constants.model_fields if key in row}, constants)
@@ -66,6 +71,17 @@ def material(
         rate=_rate(plastic),
         thermal=_thermal(elastic, plastic, initial),
         kinematic=_kinematic(_merged(KinematicHardeningConstants, row.get("kinematic_hardening", {}), kinematic)),
+    )
+
+
+def of_target(target: TargetSection) -> Material:
+    """The material of [target] with all its effects, as hot as the part is.
+
+    Raises:
+        InputError: see `material`.
+    """
+    return material(
+        target.material, target.constants, target.johnson_cook, target.temperature, target.kinematic_hardening
     )
 
 
@@ -93,7 +109,19 @@ def _rate(plastic: dict[str, float]) -> RateHardening | None:
 
 
 def _thermal(elastic: dict[str, float], plastic: dict[str, float], initial: float) -> ThermalSoftening | None:
-    if not ("m" in plastic and "melt" in plastic and "heat_capacity" in elastic):
+    """Softening by heat, if the set is complete.
+
+    Raises:
+        NoSofteningError: it is not, and the part is hotter than the room.
+    """
+    missing = [f"target.johnson_cook.{key}" for key in ("m", "melt") if key not in plastic]
+    missing += [] if "heat_capacity" in elastic else ["target.constants.heat_capacity"]
+    if missing and initial > plastic.get("room", ROOM):
+        raise NoSofteningError(
+            f"the part is {initial:g} K hot, but its constants have no softening and it would be computed cold: give "
+            f"{', '.join(missing)}, or remove target.temperature"
+        )
+    if missing:
         return None
     return ThermalSoftening(
         m=plastic["m"],

@@ -15,6 +15,7 @@ from peenflow.errors import InputError
 from peenflow.materials.library import nearest
 from peenflow.scene import ShotProperties, Thrown
 
+RESOLVED = 0.95  # share of the shots whose dents the mesh resolves, and whose size facets are held to
 NODES = 5  # sizes that stand for a normal distribution; the outermost, 2.86 σ off the mean, are 1.1 % of the shots each
 
 
@@ -123,6 +124,15 @@ def sizes(diameter: float, spread: SizeSpread | None) -> tuple[np.ndarray, np.nd
         return np.array([diameter]), np.ones(1)
     nodes, weights = np.polynomial.hermite_e.hermegauss(NODES)
     return diameter + spread.sigma * nodes, weights / weights.sum()
+
+
+def extremes(thrown: Thrown) -> tuple[float, float]:
+    """Diameters [m] of the smallest shot that counts, and of the largest.
+
+    Where sizes scatter, few are so small that they do not count: `RESOLVED` of the shots are at least as large.
+    """
+    larger = np.cumsum(thrown.shares[::-1])[::-1]  # share of the shots that are at least as large
+    return float(thrown.diameters[larger >= RESOLVED][-1]), float(thrown.diameters[-1])
 
 
 def thrown(shot: Shot, spread: SizeSpread | None) -> Thrown:

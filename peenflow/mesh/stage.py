@@ -101,9 +101,10 @@ def load(workdir: Path) -> Target:
 def _fine_half(scene: Scene, size: tuple[float, float]) -> tuple[float, float] | None:
     """Half widths of the fine zone around impacts that the case gives, where it says where the patch lies."""
     centre = stated_centre(scene.case)
-    if scene.case.impacts is None or scene.surface is None or centre is None:
+    given = scene.case.impacts
+    if given is None or scene.surface is None or centre is None:
         return None
-    table = read_impacts(scene.directory / scene.case.impacts.file, scene.surface)
+    table = read_impacts(scene.directory / given.file, given, scene.surface, scene.shot.diameter)
     apart = np.abs(scene.surface.separation(scene.surface.unroll(table.point), np.array(centre)))
     inside = apart[np.all(apart <= np.array(size) / 2, axis=1)]
     if not len(inside):

@@ -4,6 +4,7 @@ from peenflow.pipeline.clean import clean
 from peenflow.pipeline.confine import confine
 from peenflow.pipeline.execute import Outcome
 from peenflow.pipeline.export import export_deck
+from peenflow.pipeline.owner import refuse_others
 from peenflow.pipeline.run import Request, report_again, run, solve_deck
 from peenflow.pipeline.stages import names
 from peenflow.pipeline.status import StageStatus, status
@@ -16,6 +17,7 @@ __all__ = [
     "confine",
     "export_deck",
     "names",
+    "refuse_others",
     "report_again",
     "run",
     "solve_deck",

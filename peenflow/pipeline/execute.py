@@ -12,7 +12,7 @@ from peenflow.pipeline.clean import remove
 from peenflow.pipeline.freshness import Finding
 from peenflow.pipeline.manifest import Manifest
 from peenflow.pipeline.meter import Cost, Meter
-from peenflow.pipeline.stages import Stage
+from peenflow.pipeline.stages import STAGES, Stage
 from peenflow.scene import Skip
 from peenflow.stop import StoppedError, stoppable
 
@@ -85,6 +85,15 @@ def _execute(finding: Finding, out: Path, console: Console) -> Manifest:
     manifest.write(done, out)
     console.note(f"{stage.name}: done in {cost.wall_s:.1f} s")
     return done
+
+
+def withdraw(out: Path) -> None:
+    """Remove summary and pages of an earlier run, lest they be taken for those of one that changes what they tell of.
+
+    They are made again in seconds. What takes long stays: another run may find it up to date.
+    """
+    (out / "summary.json").unlink(missing_ok=True)
+    _empty(STAGES[-1], out)
 
 
 def _empty(stage: Stage, out: Path) -> None:

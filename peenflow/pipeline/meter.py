@@ -19,7 +19,7 @@ class Cost:
     wall_s: float = 0.0
     cpu_s: float = 0.0
     peak_memory_B: int = 0  # noqa: N815 (the name it has in summary.json)
-    compile_s: float = 0.0  # of wall_s: kernels that were in no cache, once on each machine
+    compile_s: float = 0.0  # of cpu_s: kernels that were in no cache, once on each machine
 
     def __add__(self, other: "Cost") -> "Cost":
         peak = max(self.peak_memory_B, other.peak_memory_B)

@@ -11,9 +11,10 @@ from peenflow.errors import InputError
 from peenflow.estimate import estimate
 from peenflow.pipeline import summary
 from peenflow.pipeline.confine import sweep
-from peenflow.pipeline.execute import Outcome, settle
+from peenflow.pipeline.execute import Outcome, settle, withdraw
 from peenflow.pipeline.freshness import Finding, assess, examine
 from peenflow.pipeline.lock import locked
+from peenflow.pipeline.owner import claim, refuse_others, refuse_strangers
 from peenflow.pipeline.stages import STAGES, Records, stage
 from peenflow.pipeline.status import status
 from peenflow.records.deck_files import load_deck
@@ -44,15 +45,17 @@ def run(request: Request, console: Console) -> list[Outcome]:
     """Bring the results in `request.out` up to date.
 
     Raises:
+        InputError: `request.out` holds another case's results.
         InputError, RunError: from a stage; its reason is kept for `status`.
         StoppedError: by Ctrl-C or SIGTERM, while a stage ran.
     """
     forced = STAGES[STAGES.index(stage(request.first)) :] if request.first else ()
     wanted = STAGES[: STAGES.index(stage(request.last)) + 1] if request.last else STAGES
-    scene, found = _looked_at(request, console)
+    scene, found = look(request, console)
     predicted = {row["stage"]: row["predicted_wall_s"] for row in found["stages"]}
     records, outcomes = Records(request.out), list[Outcome]()
     with locked(request.out):
+        claim(request.out, request.directory)
         sweep(request.out)
         summary.write_effective_case(scene, request.out)
         for each in wanted:
@@ -68,14 +71,14 @@ def run(request: Request, console: Console) -> list[Outcome]:
     return outcomes
 
 
-def _looked_at(request: Request, console: Console) -> tuple[Scene, dict[str, Any]]:
+def look(request: Request, console: Console) -> tuple[Scene, dict[str, Any]]:
     """The scene and what it will cost, by this machine's speed, which is measured first where it matters."""
     wished = request.case.accuracy
     if wished.budget is not None or wished.target is not None:
         machine.measured(console)
     scene = resolve(request.case, request.directory)
     found = estimate(scene)
-    if sum(row["predicted_wall_s"] for row in found["stages"]) > WORTH_MEASURING and not machine.known().measured:
+    if sum(row["predicted_wall_s"] for row in found["stages"]) > WORTH_MEASURING and not machine.known().settled:
         machine.measured(console)
         found = estimate(scene)
     if scene.chosen is not None:
@@ -87,13 +90,20 @@ def solve_deck(folder: Path, out: Path, console: Console) -> Outcome:
     """The `solve` stage alone, from the deck (`deck.toml`, `deck.h5`) in `folder`; raises as `run`.
 
     Raises:
-        InputError: the deck is missing or damaged.
+        InputError: the deck is missing or damaged; `out` holds results of a case, and the deck is none of them; it
+            holds files with the names of results that no run has left.
     """
     each, deck = stage("solve"), load_deck(folder)
     inputs = each.module().Inputs(deck=deck)
     with locked(out):
+        if not folder.resolve().is_relative_to(out.resolve()):
+            refuse_others(out, folder)
+        refuse_strangers(out, (each, stage("report")))
         sweep(out)
-        return settle(assess(each, inputs, out), out, console)
+        finding = assess(each, inputs, out)
+        if not finding.fresh:
+            withdraw(out)
+        return settle(finding, out, console)
 
 
 def report_again(request: Request, console: Console) -> list[Outcome]:
@@ -113,7 +123,7 @@ def report_again(request: Request, console: Console) -> list[Outcome]:
 
 def _settle(finding: Finding, before: list[Outcome], request: Request, console: Console) -> Outcome:
     if not finding.fresh:
-        (request.out / "summary.json").unlink(missing_ok=True)  # it must not look as if this run had finished
+        withdraw(request.out)
     if not isinstance(finding.inputs, Skip) and hasattr(finding.inputs, "ledger"):
         inputs = dataclasses.replace(finding.inputs, ledger=tuple(summary.ledger(before)))
         finding = dataclasses.replace(finding, inputs=inputs)

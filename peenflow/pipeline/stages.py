@@ -49,7 +49,8 @@ class Stage:
         return cast(StageModule, importlib.import_module(f"peenflow.{self.package}.stage"))
 
 
-PAGES = ("*.csv", "response.vtu", "report/**/*")
+TABLES = ("profile.csv", "profile_axis.csv", "impacts.csv", "history.csv", "pressure.csv", "dent.csv")
+PAGES = (*TABLES, "response.vtu", "report/**/*")  # by name: a directory may hold tables that are the user's
 
 STAGES = (
     Stage("mesh", "mesh", "target", (), ("target.h5", "target.vtu"), own=("mesh",)),

@@ -8,6 +8,7 @@ from peenflow.case.model import Case
 from peenflow.pipeline import manifest
 from peenflow.pipeline.freshness import Finding, examine
 from peenflow.pipeline.lock import holder
+from peenflow.pipeline.owner import refuse_others
 from peenflow.pipeline.stages import STAGES, Records
 from peenflow.resolve import resolve
 from peenflow.scene import Skip
@@ -33,8 +34,9 @@ def status(case: Case, directory: Path, out: Path) -> list[StageStatus]:
     """State of every stage for the case as it is now.
 
     Raises:
-        InputError: from resolving the case.
+        InputError: from resolving the case; `out` holds another case's results.
     """
+    refuse_others(out, directory)
     scene = resolve(case, directory)
     records, settled, lines = Records(out), set[str](), list[StageStatus]()
     busy = holder(out)

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import numpy as np
 
-from peenflow.records.fields import of
+from peenflow.records.fields import of, quantities
 
 
 @dataclass(frozen=True)
@@ -13,8 +13,8 @@ class Contacts:
     """Shot–wall contact samples, one row a shot, facet and sampling time, ordered by time.
 
     In the part's frame. Engine peculiarities are undone: `force` is what the engine's integrator used and
-    `velocity` what the shot had before the contact began, as far as the row lets it be restored (exact on the
-    first row of a contact, of no use later).
+    `velocity` and `spin` what the shot had before the contact began, as far as the row lets them be restored (exact on
+    the first row of a contact, of no use later).
     """
 
     t: Annotated[np.ndarray, of("s", "sampling time", "(n,)")]
@@ -33,3 +33,9 @@ class Contacts:
     shots: Annotated[int, of("1", "shots thrown")]
     engine: Annotated[str, of("", "what made it, with version; 'none' where the case gives its impacts")]
     time_step: Annotated[float, of("s", "the engine's time step; 0 where there is none")]
+    spin: Annotated[np.ndarray | None, of("rad/s", "shot's before the contact; None: not known", "(n, 3)")] = None
+
+    def rows(self) -> dict[str, np.ndarray]:
+        """The fields that have one value a row, by name."""
+        fields = {name: getattr(self, name) for name, told in quantities(Contacts).items() if told.shape}
+        return {name: values for name, values in fields.items() if values is not None}

@@ -49,7 +49,7 @@ class FarField:
 
 @dataclass(frozen=True)
 class Spheres:
-    """Rigid shots that arrive with the DEM's velocity, in the patch frame."""
+    """Rigid shots that arrive with the DEM's velocity and spin, in the patch frame."""
 
     diameter: Annotated[np.ndarray, of("m", "diameter", "(s,)")]
     density: Annotated[np.ndarray, of("kg/m3", "density", "(s,)")]
@@ -58,6 +58,7 @@ class Spheres:
     velocity: Annotated[np.ndarray, of("m/s", "velocity before the hit", "(s, 3)")]
     t_start: Annotated[np.ndarray, of("s", "when it would first touch", "(s,)")]
     friction: Annotated[float, of("1", "Coulomb coefficient; 0 none")]
+    spin: Annotated[np.ndarray | None, of("rad/s", "before the hit; None: they do not spin", "(s, 3)")] = None
 
 
 @dataclass(frozen=True)
@@ -121,3 +122,6 @@ class Deck:
     spheres: Spheres | None
     pressures: PressureLoads | None
     forces: NodalForces | None = None
+    group_starts: Annotated[
+        np.ndarray | None, of("s", "of impacts, rising; none: they keep their own times", "(g,)")
+    ] = None

@@ -6,7 +6,7 @@ import tomllib
 import typing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import tomli_w
@@ -15,7 +15,7 @@ from peenflow.errors import InputError
 from peenflow.files import write_text_whole
 from peenflow.records import hdf5
 from peenflow.records.deck import Controls, Deck, FarField, NodalForces, Placement, PressureLoads, Roller, Spheres
-from peenflow.records.fields import quantities
+from peenflow.records.fields import of, quantities
 from peenflow.records.material import Material
 from peenflow.records.target import Patch
 
@@ -37,6 +37,7 @@ class DeckArrays:
     spheres: Spheres | None
     pressures: PressureLoads | None
     forces: NodalForces | None
+    group_starts: Annotated[np.ndarray | None, of("s", "of impacts, rising; none: they keep their own times", "(g,)")]
 
 
 def save_deck(deck: Deck, folder: Path) -> None:
@@ -130,10 +131,15 @@ def _check_arrays(arrays: DeckArrays, path: Path) -> None:
         ),
         "a sphere's place, velocity or start is not a finite number": spheres is not None
         and not all(np.isfinite(a).all() for a in (spheres.point, spheres.velocity, spheres.t_start)),
+        "a sphere's spin is not a finite number": spheres is not None
+        and spheres.spin is not None
+        and not np.isfinite(spheres.spin).all(),
         "a sphere's diameter or density is not positive": spheres is not None
         and not ((spheres.diameter > 0).all() and (spheres.density > 0).all()),
         "the nodal forces' times do not rise": forces is not None
         and (len(forces.time) < 2 or not (np.diff(forces.time) > 0).all()),
+        "the groups' starts do not rise": arrays.group_starts is not None
+        and not (np.isfinite(arrays.group_starts).all() and (np.diff(arrays.group_starts) > 0).all()),
         "a nodal force is not a finite number": forces is not None and not np.isfinite(forces.force).all(),
         "a pressure load's radius or duration is not positive": pressures is not None
         and not ((pressures.radius > 0).all() and (pressures.duration > 0).all()),

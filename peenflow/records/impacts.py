@@ -32,3 +32,4 @@ class Impacts:
     min_normal_speed: Annotated[float, of("m/s", "the rule's speed")]
     shots_hitting: Annotated[int, of("1", "distinct shots that met the target, slow ones included")]
     groups: Annotated[int, of("1", "start times on the patch")]
+    spin: Annotated[np.ndarray | None, of("rad/s", "shot's before the hit; None: taken to be zero", "(n, 3)")] = None

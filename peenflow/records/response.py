@@ -44,7 +44,7 @@ class Response:
     displacement: Annotated[np.ndarray, of("m", "of the nodes", "(n, 3)")]
     stress: Annotated[np.ndarray, of("Pa", "Cauchy stress xx yy zz xy yz zx in the patch frame", "(m, 6)")]
     peeq: Annotated[np.ndarray, of("1", "equivalent plastic strain", "(m,)")]
-    temperature: Annotated[np.ndarray | None, of("K", "where thermal softening is on", "(m,)")]
+    temperature: Annotated[np.ndarray | None, of("K", "highest, where thermal softening is on", "(m,)")]
     spheres: SphereResults | None
     energies: Energies
     energy_error: Annotated[float, of("1", "|imbalance| over all energy brought in")]
@@ -58,3 +58,4 @@ class Response:
     element_updates_per_s: Annotated[float, of("1/s", "elements × steps over wall time")] = field(
         metadata={"hashed": False}
     )
+    notes: Annotated[tuple[str, ...], of("", "what makes one doubt the run, each with what to do")] = ()

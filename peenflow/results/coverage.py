@@ -38,12 +38,22 @@ def calibrated_dents(calibration: Calibration) -> DentLaw:
 
 
 @dataclass(frozen=True)
+class Shooting:
+    """How the stream that left the dents was thrown."""
+
+    duration: float  # s, of one pass
+    passes: int  # independent ones, laid over each other
+    travels: bool  # a rod carries the stream past the patch in each pass, then stops
+
+
+@dataclass(frozen=True)
 class Coverage:
     """Coverage of the patch."""
 
     fraction: float  # of its area that lies within a dent, counted on a raster
     avrami: float  # the same expected of dents thrown at random: 1 − exp(−Σπa²/S)
-    full_at: float | None  # s, time to 98 % at this rate by Avrami; None: no rate known, or no dents
+    full_at: float | None  # s of shooting to 98 % by Avrami; None: no steady rate known, or no dents
+    full_at_passes: float | None  # likewise, passes of a rod that travels; None: none does, or no dents
 
 
 def covered(points: np.ndarray, radii: np.ndarray, low: np.ndarray, high: np.ndarray) -> float:
@@ -58,19 +68,22 @@ def covered(points: np.ndarray, radii: np.ndarray, low: np.ndarray, high: np.nda
 
 
 def coverage(
-    points: np.ndarray, radii: np.ndarray, low: np.ndarray, high: np.ndarray, exposure: float | None
+    points: np.ndarray, radii: np.ndarray, low: np.ndarray, high: np.ndarray, shooting: Shooting | None
 ) -> Coverage:
     """Coverage of the rectangle low…high (2,) [m] by dents of `radii` (n,) [m] at surface coordinates (n, 2) [m].
 
     Dents from outside count as far as they reach in; Avrami's law takes those whose centre lies inside, which is
-    the same in the mean. `exposure` [s] is the time in which they came.
+    the same in the mean. Where a rod goes by and then stands still the patch is not hit at one rate throughout: there
+    full coverage is told in passes.
     Source: Avrami; SAE J2277 for what is full.
     """
     inside = ((points >= low) & (points <= high)).all(axis=1)
     thickness = float(np.pi * np.sum(radii[inside] ** 2) / np.prod(high - low))
-    full_at = exposure * -np.log(1 - FULL) / thickness if exposure and thickness else None
+    passes = shooting.passes * float(-np.log(1 - FULL)) / thickness if shooting and thickness else None
+    travels = shooting is not None and shooting.travels
     return Coverage(
         fraction=covered(points, radii, low, high),
         avrami=float(-np.expm1(-thickness)),
-        full_at=None if full_at is None else float(full_at),
+        full_at=None if shooting is None or passes is None or travels else passes * shooting.duration,
+        full_at_passes=passes if travels else None,
     )

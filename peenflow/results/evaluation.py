@@ -10,7 +10,8 @@ from peenflow.records.impacts import Impacts
 from peenflow.records.response import Response
 from peenflow.records.target import Patch
 from peenflow.results import figures, profiles
-from peenflow.results.coverage import Coverage, DentLaw, coverage
+from peenflow.results.chance import standard_error
+from peenflow.results.coverage import Coverage, DentLaw, Shooting, coverage
 from peenflow.results.profiles import Profile, Square
 from peenflow.results.roughness import Roughness, roughness
 from peenflow.results.stream import Stream
@@ -26,8 +27,10 @@ class Peening:
     impacts: Impacts
     response: Response
     stream: Stream | None  # None: the case gave its impacts
-    exposure: float | None  # s, of shooting; likewise
+    shooting: Shooting | None  # likewise
+    densest: bool  # the patch was put where most hard impacts fall
     sides: str  # symmetric | free
+    through: bool  # the patch is as deep as the part: nothing lies below
 
     def uv(self) -> np.ndarray:
         """Where the impacts hit (n, 2) [m]: surface coordinates from the patch's centre."""
@@ -49,6 +52,7 @@ class Evaluation:
     dent_radius: np.ndarray  # m, of every impact, (n,)
     coverage: Coverage
     roughness: Roughness
+    by_chance: np.ndarray | None  # Pa, (layers,): standard error of the mean (S11+S22)/2 over shots that fall at random
 
 
 def evaluate(peening: Peening, area: float | None, shot_diameter: float, dents: DentLaw) -> Evaluation:
@@ -68,9 +72,18 @@ def evaluate(peening: Peening, area: float | None, shot_diameter: float, dents: 
         hardest=hardest,
         axis=None if under is None else profiles.weighted(patch, response, under),
         dent_radius=radii,
-        coverage=coverage(points, radii, *profiles.extent(patch), peening.exposure),
+        coverage=coverage(points, radii, *profiles.extent(patch), peening.shooting),
         roughness=roughness(patch, response.displacement, square),
+        by_chance=_by_chance(peening, square, radii),
     )
+
+
+def _by_chance(peening: Peening, square: Square, radii: np.ndarray) -> np.ndarray | None:
+    """None where chance has no part: the case gave its impacts, or none fell on the patch."""
+    dents = radii[peening.impacts.on_patch]
+    if peening.stream is None or not dents.size:
+        return None
+    return standard_error(peening.patch, peening.response, square, float(dents.max()))
 
 
 def peening_figures(peening: Peening, evaluation: Evaluation) -> figures.Figures:
@@ -78,7 +91,9 @@ def peening_figures(peening: Peening, evaluation: Evaluation) -> figures.Figures
     found = {
         "impacts": figures.impact_figures(peening.impacts),
         "fe": figures.patch_fe_figures(peening.response, peening.patch),
-        "residual": figures.residual_figures(profiles.residual(evaluation.mean)) | {"area_m": evaluation.square.side},
+        "residual": figures.residual_figures(profiles.residual(evaluation.mean))
+        | figures.chance_figures(evaluation.mean, evaluation.by_chance)
+        | {"area_m": evaluation.square.side},
         "coverage": figures.coverage_figures(evaluation.coverage),
         "roughness": figures.roughness_figures(evaluation.roughness),
     }

@@ -22,6 +22,7 @@ COVERAGE: Columns = {
     "fraction": ("coverage", "%", 100, 1),
     "avrami": ("coverage by Avrami", "%", 100, 1),
     "full_at_s": ("98 % covered after", "ms", 1e3, None),
+    "full_at_passes": ("98 % covered after", "passes", 1, None),
 }
 ROUGHNESS: Columns = {
     "Ra_m": ("Ra", "µm", 1e6, 2),

@@ -1,7 +1,6 @@
 """The figures of a run, under the names of `summary.json`."""
 
 import math
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ from peenflow.records.impacts import Impacts
 from peenflow.records.response import Response
 from peenflow.records.target import Patch
 from peenflow.results.coverage import Coverage
-from peenflow.results.profiles import Residual
+from peenflow.results.profiles import Profile, Residual
 from peenflow.results.roughness import Roughness
 from peenflow.results.stream import Stream
 
@@ -69,7 +68,7 @@ def dem_figures(stream: Stream, impacts: Impacts) -> Figures:
         "deflector_contacts": stream.deflector_contacts,
         "engine": stream.engine,
         "duration_s": stream.duration,
-        "time_step_s": stream.time_step,
+        "time_step_s": stream.time_step or None,  # the event-driven engine, and a table, have none
     }
 
 
@@ -119,6 +118,15 @@ def residual_figures(residual: Residual) -> Figures:
     }
 
 
+def chance_figures(mean: Profile, by_chance: np.ndarray | None) -> Figures:
+    """Of `residual`: the standard errors of its stresses by chance; None where it is not known, or has no part."""
+    at_minimum = int(np.argmin(mean.in_plane))
+    return {
+        "surface_standard_error_Pa": None if by_chance is None else by_chance[0],
+        "min_standard_error_Pa": None if by_chance is None else by_chance[at_minimum],
+    }
+
+
 def place_figures(impacts: Impacts, row: int) -> Figures:
     """Which impact `residual_axis` is under: where it hit, in the part's frame, and how hard."""
     x, y, z = impacts.point[row]
@@ -127,9 +135,20 @@ def place_figures(impacts: Impacts, row: int) -> Figures:
 
 def coverage_figures(coverage: Coverage) -> Figures:
     """`coverage`."""
-    return {"fraction": coverage.fraction, "avrami": coverage.avrami, "full_at_s": coverage.full_at}
+    return {
+        "fraction": coverage.fraction,
+        "avrami": coverage.avrami,
+        "full_at_s": coverage.full_at,
+        "full_at_passes": coverage.full_at_passes,
+    }
 
 
 def roughness_figures(roughness: Roughness) -> Figures:
     """`roughness`."""
-    return {f"{name}_m": value for name, value in asdict(roughness).items()}
+    return {
+        "Ra_m": roughness.Ra,
+        "Rz_m": roughness.Rz,
+        "Sa_m": roughness.Sa,
+        "sampling_length_m": roughness.sampling_length,
+        "sampling_lengths": roughness.sampling_lengths,
+    }

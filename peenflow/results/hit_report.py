@@ -4,7 +4,7 @@ from functools import partial
 from pathlib import Path
 
 from peenflow.records.calibration import Calibration, SingleHit
-from peenflow.results import drawing, figures, hit_plots, patch_plots, profiles, tables
+from peenflow.results import drawing, figures, hit_plots, patch_plots, profiles, quality, tables
 from peenflow.results.drawing import Picture
 from peenflow.results.figures import Figures
 from peenflow.results.page import Story
@@ -32,10 +32,12 @@ def report(calibration: Calibration, units: Units, workdir: Path) -> tuple[Figur
         "Residual stress against depth",
         "By layer of elements, in the surface's own axes: 1 and 2 lie in it.",
     )
+    warnings = quality.of_calibration(calibration)
     found = {
         "fe": figures.fe_figures(calibration, calibration.elements, calibration.nodes),
         "residual": figures.residual_figures(profiles.residual(mean)),
         "residual_axis": figures.residual_figures(profiles.residual(axis)),
+        "warnings": warnings,
     }
     story = Story(
         over="a disc around the shot's axis",
@@ -43,6 +45,8 @@ def report(calibration: Calibration, units: Units, workdir: Path) -> tuple[Figur
         held=False,
         undrawn=None,
         engine=None,
+        warnings=warnings,
+        cover_notes=[],
         pictures={"stress": [stress]},
     )
     return found, story

@@ -29,6 +29,8 @@ class Story:
     held: bool  # the patch's sides are symmetry planes
     undrawn: str | None  # why the surface could not be drawn
     engine: str | None  # of the DEM
+    warnings: Sequence[str]  # what makes one doubt the run, each with what to do
+    cover_notes: Sequence[str]  # paragraphs under coverage and roughness
     pictures: Mapping[str, Sequence[Picture]]  # by section: stress, impacts, quality
 
 
@@ -44,6 +46,7 @@ class Frame:
     ledger: Sequence[Row]
     hits: Sequence[Picture]  # of the calibration
     stages: Sequence[Picture]  # of the ledger
+    sure: Sequence[str]  # paragraphs on how sure the figures are
 
 
 def write(path: Path, figures: Figures, frame: Frame, story: Story) -> None:
@@ -58,13 +61,13 @@ def write(path: Path, figures: Figures, frame: Frame, story: Story) -> None:
         frame=frame,
         story=story,
         residuals={
-            heading: facts.facts(figures[name], residual_columns(frame.units))
+            heading: facts.facts(_without_errors(figures[name]), residual_columns(frame.units))
             for name, heading in HEADINGS.items()
             if name in figures
         },
-        cover=facts.facts(figures.get("coverage", {}), facts.COVERAGE),
+        cover=facts.facts(_known(figures.get("coverage", {})), facts.COVERAGE),
         rough=facts.facts(figures.get("roughness", {}), facts.ROUGHNESS),
-        stream=facts.facts(figures.get("dem", {}), facts.DEM),
+        stream=facts.facts(_known(figures.get("dem", {})), facts.DEM),
         impacts=facts.facts(figures.get("impacts", {}), facts.IMPACTS),
         fe=facts.facts(figures["fe"], facts.FE),
         hits=facts.by_label(_hit_rows(figures), facts.HIT),
@@ -79,12 +82,24 @@ def residual_columns(units: Units) -> facts.Columns:
     length = (units.length.name, units.length.factor, units.length.digits)
     return {
         "min_Pa": ("largest compression", *stress),
+        "min_standard_error_Pa": ("its standard error by chance", *stress),
         "depth_of_min_m": ("at depth", *length),
         "zero_crossing_m": ("compressed to", *length),
         "surface_Pa": ("at the surface", *stress),
+        "surface_standard_error_Pa": ("its standard error by chance", *stress),
         "max_tension_Pa": ("largest tension", *stress),
         "peeq_surface": ("surface plastic strain", "", 1, 3),
     }
+
+
+def _known(figures: Figures) -> Figures:
+    """What there is a number of: an engine without a time step has no line for it."""
+    return {key: value for key, value in figures.items() if value is not None}
+
+
+def _without_errors(figures: Figures) -> Figures:
+    """The same without standard errors that are not known."""
+    return {key: value for key, value in figures.items() if value is not None or not key.endswith("_standard_error_Pa")}
 
 
 def _hit_rows(figures: Figures) -> list[Figures]:

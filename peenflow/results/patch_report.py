@@ -5,7 +5,7 @@ from pathlib import Path
 
 from peenflow.geometry import CadSurface
 from peenflow.progress import Progress
-from peenflow.results import drawing, patch_plots, profiles, tables, volume
+from peenflow.results import cover_notes, drawing, patch_plots, profiles, quality, tables, volume
 from peenflow.results.drawing import Picture
 from peenflow.results.evaluation import Evaluation, Peening, peening_figures
 from peenflow.results.facts import number
@@ -33,15 +33,18 @@ def report(
         pictures["impacts"] = [*_part(peening, workdir / "report" / "part.png"), *pictures["impacts"]]
     else:
         progress.note(f"The peened surface could not be drawn: {surface}. Install libegl1 and report again.")
+    warnings = quality.of_patch(peening, found, units)
     story = Story(
         over=_describe(found, units.length),
         under=_locate(peening, found, units.length),
         held=peening.sides == "symmetric",
         undrawn=None if isinstance(surface, Picture) else surface,
         engine=None if peening.stream is None else peening.stream.engine,
+        warnings=warnings,
+        cover_notes=cover_notes.notes(peening, found, units.length),
         pictures=pictures,
     )
-    return peening_figures(peening, found), story
+    return peening_figures(peening, found) | {"warnings": warnings}, story
 
 
 def _write_tables(peening: Peening, found: Evaluation, workdir: Path) -> None:
@@ -107,7 +110,10 @@ def _part(peening: Peening, picture: Path) -> list[Picture]:
     surface = peening.surface
     if not isinstance(surface, CadSurface) or part_picture(peening, surface, picture) is not None:
         return []
-    told = "All impacts on the faces that DEM knew, coloured by the speed along the normal; the outline is the patch."
+    told = (
+        "Seen onto the patch, whose outline is drawn: of the faces that DEM knew, those turned to the reader, and the "
+        "impacts on them, coloured by the speed along the normal."
+    )
     return [Picture(picture.name, "Where the shots hit the part", told)]
 
 

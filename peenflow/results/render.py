@@ -22,7 +22,7 @@ from peenflow.results.units import Unit
 SIZE = (1600, 1000)  # pixels
 TIME_LIMIT = 300  # s
 RISE = 0.1  # of the patch's width: how high the magnified displacement may stand
-SPREAD = 99  # percentile of |stress| at which the colours end: single elements do not set the scale
+SPREAD = 99.9  # percentile of |stress| on the faces seen at which the colours end: single elements do not set the scale
 BAR = {
     "vertical": True,
     "position_x": 0.87,
@@ -79,6 +79,27 @@ def rounded_up(value: float) -> float:
     return max(1, math.ceil(value / step)) * step
 
 
+def scale(stress: np.ndarray) -> tuple[float, dict[str, str]]:
+    """Where the colours of `stress` (n,) on the faces seen end, and what marks the ends that some of it is beyond."""
+    bound = rounded_up(float(np.percentile(np.abs(stress), SPREAD)))
+    below = {"below_color": "#021B33"} if stress.min() < -bound else {}
+    above = {"above_color": "#33000F"} if stress.max() > bound else {}
+    return bound, below | above
+
+
+def outwards(mesh: Any, shape: Any) -> np.ndarray:
+    """Normals (f, 3) of the faces of `shape`, out of the hexahedra of `mesh` that they are faces of."""
+    normals = np.asarray(
+        shape.compute_normals(point_normals=False, auto_orient_normals=False, consistent_normals=False).cell_data[
+            "Normals"
+        ]
+    )
+    inside = mesh.cell_centers().points[shape.cell_data["vtkOriginalCellIds"]]
+    side = np.sign(np.sum((shape.cell_centers().points - inside) * normals, axis=1, keepdims=True))
+    turned: np.ndarray = side * normals
+    return turned
+
+
 def render(vtu: Path, picture: Path, seen: View) -> str | None:
     """Draw the patch in `vtu` as the PNG `picture`, in a process of its own; None, or why it could not be drawn."""
     command = [sys.executable, "-P", "-m", "peenflow.results.render", str(vtu), str(picture), json.dumps(asdict(seen))]
@@ -107,18 +128,18 @@ def draw(vtu: Path, picture: Path, seen: View) -> None:
     import pyvista  # only the drawing process pays the second that VTK takes to load
     from matplotlib.image import imsave
 
+    normal, axis_1 = np.array(seen.normal), np.array(seen.axis_1)
+    towards = normal - np.cross(normal, axis_1) + 0.45 * axis_1
     mesh = pyvista.read(vtu)
     title = f"(S11+S22)/2 [{seen.stress_unit}]\n"
     mesh.cell_data[title] = (mesh.cell_data["S11"] + mesh.cell_data["S22"]) / 2 * seen.stress_factor
-    bound = rounded_up(float(np.percentile(np.abs(mesh.cell_data[title]), SPREAD)))
-    shape = mesh.warp_by_vector("displacement", factor=seen.magnification).extract_surface(algorithm="dataset_surface")
+    warped = mesh.warp_by_vector("displacement", factor=seen.magnification)
+    shape = warped.extract_surface(algorithm="dataset_surface")
+    bound, ends = scale(shape.cell_data[title][outwards(warped, shape) @ towards > 0])
     plotter: Any = pyvista.Plotter(off_screen=True, window_size=list(SIZE))  # Any: its decorators hide its types
     plotter.background_color = "white"
-    plotter.add_mesh(
-        shape, scalars=title, cmap="RdBu_r", clim=(-bound, bound), ambient=0.55, diffuse=0.5, scalar_bar_args=BAR
-    )
-    normal, axis_1 = np.array(seen.normal), np.array(seen.axis_1)
-    towards = normal - np.cross(normal, axis_1) + 0.45 * axis_1
+    colours = {"cmap": "RdBu_r", "clim": (-bound, bound), "ambient": 0.55, "diffuse": 0.5}
+    plotter.add_mesh(shape, scalars=title, **colours, **ends, scalar_bar_args=BAR)
     plotter.camera.parallel_projection = True
     plotter.camera_position = [np.array(seen.centre) + seen.width * towards, seen.centre, normal]
     plotter.reset_camera()

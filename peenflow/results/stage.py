@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from peenflow.case.model import Case, PlateGeometry
+from peenflow.case.patch_centre import stated_centre
 from peenflow.errors import InputError
 from peenflow.files import write_text_whole
 from peenflow.progress import Progress
@@ -13,14 +15,14 @@ from peenflow.records.calibration import Calibration
 from peenflow.records.material import Material
 from peenflow.records.upstream import Upstream
 from peenflow.results import figures, hit_report, page, patch_report
-from peenflow.results.coverage import DentLaw, calibrated_dents
+from peenflow.results.coverage import DentLaw, Shooting, calibrated_dents
 from peenflow.results.evaluation import Peening, evaluate
 from peenflow.results.figures import Figures
 from peenflow.results.ledger import Row, draw_ledger
 from peenflow.results.page import Frame, Story
 from peenflow.results.stream import summarise
 from peenflow.results.units import display
-from peenflow.scene import Decision, Limit, Scene, ShotProperties, Skip
+from peenflow.scene import Decision, Limit, MeshError, Scene, ShotProperties, Skip
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,7 @@ class Inputs:
     not_modelled: dict[str, Limit]
     area: float | None  # m, [report] area
     units: tuple[str, str]  # of stress and length on pages and plots
+    mesh_error: MeshError | None  # error of the stress by the mesh; None: nothing like it was studied
     dents: DentLaw  # the closed form's, for a run without calibration
     calibration: Calibration | None
     peening: Peening | None  # None: a calibration alone
@@ -54,6 +57,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
         not_modelled=scene.not_modelled,
         area=scene.case.report.area,
         units=scene.case.report.units,
+        mesh_error=scene.mesh_error,
         dents=DentLaw(np.array([scene.speed]), np.array([scene.dent_radius]), scene.shot.diameter),
         calibration=upstream.calibration,
         peening=peening,
@@ -63,7 +67,7 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
 def _peening(scene: Scene, upstream: Upstream) -> Peening | None:
     if scene.surface is None or upstream.translation is None or upstream.response is None:
         return None
-    contacts, deck, exposure = upstream.contacts, upstream.translation.deck, scene.case.exposure
+    contacts, deck, geometry = upstream.contacts, upstream.translation.deck, scene.case.target.geometry
     return Peening(
         surface=scene.surface,
         patch=deck.patch,
@@ -71,9 +75,20 @@ def _peening(scene: Scene, upstream: Upstream) -> Peening | None:
         impacts=upstream.translation.impacts,
         response=upstream.response,
         stream=None if contacts is None or contacts.engine == "none" else summarise(contacts),
-        exposure=None if exposure is None else exposure.duration * exposure.shards,  # shards are merged
+        shooting=_shooting(scene.case),
+        densest=stated_centre(scene.case) is None,
         sides=scene.knobs.sides,
+        through=isinstance(geometry, PlateGeometry) and scene.knobs.depth >= geometry.thickness * (1 - 1e-9),
     )
+
+
+def _shooting(case: Case) -> Shooting | None:
+    """A rod that travels does so in each shard, even where its motion is too slow to be simulated."""
+    exposure, rod = case.exposure, case.deflector
+    if exposure is None:
+        return None
+    travels = rod is not None and rod.travel.start != rod.travel.to
+    return Shooting(exposure.duration, exposure.shards, travels)
 
 
 def run(inputs: Inputs, workdir: Path, progress: Progress) -> Figures:
@@ -88,6 +103,9 @@ def run(inputs: Inputs, workdir: Path, progress: Progress) -> Figures:
         if inputs.calibration is not None:
             found = figures.calibration_figures(inputs.calibration) | found
         found = figures.strict(found)
+        for warning in story.warnings:
+            if inputs.peening is None or warning not in inputs.peening.response.notes:  # the solver told its own
+                progress.note(warning)
         task.update(2)
         page.write(workdir / "report" / "index.html", found, _frame(inputs, workdir / "report"), story)
         write_text_whole(_figures_file(workdir), json.dumps(found, indent=2, allow_nan=False) + "\n")
@@ -123,6 +141,24 @@ def _report(inputs: Inputs, workdir: Path, progress: Progress) -> tuple[Figures,
     return hit_report.report(inputs.calibration, units, workdir)
 
 
+def _sure(inputs: Inputs) -> list[str]:
+    found = inputs.mesh_error
+    mesh = "How far the mesh is off is not known: no like one was studied. peenflow study measures it."
+    if found is not None:
+        mesh = (
+            f"The mesh, {found.elements_per_dent:.2g} elements to the radius of the hardest hits' dents, makes one "
+            f"expect an error of {100 * found.error:.2g} % of the stress profile (rms, of its largest compression), by "
+            f"the shipped study of {found.source}; peenflow study measures it for this case."
+        )
+    if inputs.peening is None or inputs.peening.stream is None:
+        return [mesh]
+    chance = (
+        "Standard errors by chance tell how the means would scatter over other seeds of the same stream; they follow "
+        "from how the stress differs from block to block of the evaluation area."
+    )
+    return [mesh, chance]
+
+
 def _frame(inputs: Inputs, directory: Path) -> Frame:
     calibration, ledger, units = inputs.calibration, inputs.ledger, display(inputs.units)
     diameter = f"{inputs.shot.diameter * units.length.factor:.4g} {units.length.name}"
@@ -134,5 +170,6 @@ def _frame(inputs: Inputs, directory: Path) -> Frame:
         not_modelled=inputs.not_modelled,
         ledger=ledger,
         hits=[] if calibration is None else hit_report.pictures(calibration, directory),
+        sure=_sure(inputs),
         stages=[draw_ledger(ledger, directory)] if ledger else [],
     )

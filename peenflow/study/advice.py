@@ -10,15 +10,16 @@ SHOWN = {"cor": "CoR", "peak_force_N": "peak force", "min_Pa": "least residual s
 
 
 def recommendations(found: Study) -> list[dict[str, Any]]:
-    """For each target that a point meets, the cheapest such point, in words."""
+    """For each target that a point meets with the reference's own error on top, the cheapest such point, in words."""
     told: list[dict[str, Any]] = []
+    own = found.reference_error or 0.0
     for target in TARGETS:
-        good = [each for each in of_kind(found.rows, "base", "knob") if each.error <= target]
+        good = [each for each in of_kind(found.rows, "base", "knob") if each.error + own <= target]
         if not good:
             break
         best = min(good, key=lambda each: (each.cpu_s, each.error))
         text = f"for {100 * target:g} % on the residual stress profile: {setting(best)}, about {best.cpu_s:.3g} CPU s"
-        told.append({"target": target, "point": best.point.name, "text": text, "error": best.error})
+        told.append({"target": target, "point": best.point.name, "text": text, "error": best.error + own})
     return told
 
 

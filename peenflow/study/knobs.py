@@ -6,10 +6,10 @@ Values run from coarse to fine; the last of them is the reference's, except wher
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import get_args
 
-from peenflow.case.accuracy import PRESETS, SCATTERS
+from peenflow.case.accuracy import PRESETS, SCATTERS, SET_BY_PRESET
 from peenflow.case.model import BoltHoleGeometry, PlateGeometry, PressureShape
 from peenflow.case.placement import LEAST_AROUND
 from peenflow.dent import speed_for_depth
@@ -32,7 +32,6 @@ DEM_TIME_STEPS = (0.3, 0.2, 0.1)
 CONTACT_INTERVALS = (4, 2, 1)
 FACET_SIZES = (3.0, 2.0, 1.5, 1.0)  # shortest edge over the largest shot's diameter: chords stand out less
 WRITTEN = 1e-3  # share of a length that its four digits may be off
-PRESSED = {"accuracy.load": "pressure"}
 SHALLOWEST = (0.1, 0.05, 0.02, 0.01)  # of the deepest dent: what is shallower is dropped
 
 
@@ -44,6 +43,11 @@ class Sweep:
     reference: str | None  # None: the base's, for no value is finer than another
 
 
+def _alone(scene: Scene) -> Mapping[str, str]:
+    del scene
+    return {}
+
+
 @dataclass(frozen=True)
 class Knob:
     """One knob of [accuracy]."""
@@ -51,7 +55,7 @@ class Knob:
     name: str
     missing: Callable[[Scene], str | None]  # why a case has it not; None: it has
     sweep: Callable[[Scene], Sweep]
-    beside: Mapping[str, str] = field(default_factory=dict)  # settings without which its values mean nothing
+    beside: Callable[[Scene], Mapping[str, str]] = _alone  # settings without which its values mean nothing
     chaotic: bool = False  # another value throws another stream, as another seed does: not the reference's either
 
 
@@ -103,7 +107,7 @@ def _boundary_missing(scene: Scene) -> str | None:
         return "the case says what lies behind"
     geometry = scene.case.target.geometry
     if isinstance(geometry, PlateGeometry) and scene.knobs.depth >= geometry.thickness * (1 - 1e-9):
-        return "the patch is as deep as the plate, so nothing lies behind it"
+        return "the patch is as deep as the plate, whose back lies on a support"
     return None
 
 
@@ -185,6 +189,20 @@ def _words(*values: str, reference: str | None = None) -> Callable[[Scene], Swee
     return sweep
 
 
+def _pressed(scene: Scene) -> Mapping[str, str]:
+    del scene
+    return {"accuracy.load": "pressure"}
+
+
+def _unset(scene: Scene) -> Mapping[str, str]:
+    """What lets a preset set all it does: its knobs' own values taken away, but that with which streams change."""
+    own = scene.case.accuracy.model_fields_set.intersection(SET_BY_PRESET)
+    settings = {f"accuracy.{name}": "" for name in SET_BY_PRESET if name in own}
+    if _stepped_only(scene) is None:
+        settings["accuracy.dem_time_step"] = f"{scene.knobs.dem_time_step:g}"
+    return settings
+
+
 def rounded(size: float) -> float:
     """To one digit, or one and a half below 3: sizes a person would choose."""
     scale = 10.0 ** math.floor(math.log10(size))
@@ -204,7 +222,7 @@ KNOBS: tuple[Knob, ...] = (
     Knob("boundary", _boundary_missing, _words("fixed", "far-field", reference="far-field")),
     Knob("depth", _depth_missing, _depth),
     Knob("load", _patch_only, _words("pressure", "impact", reference="impact")),
-    Knob("pressure_shape", _patch_only, _words(*get_args(PressureShape)), PRESSED),
+    Knob("pressure_shape", _patch_only, _words(*get_args(PressureShape)), _pressed),
     Knob("group_distance", _groups_only, _group_distance),
     Knob("active_radius", _patch_only, _words("1", "1.5", "2", "3", "off", reference="off")),
     Knob("min_normal_speed", _patch_only, _min_normal_speed),
@@ -217,5 +235,5 @@ KNOBS: tuple[Knob, ...] = (
     Knob("contact_interval", _stepped_only, lambda scene: _falling(CONTACT_INTERVALS, scene.knobs.contact_interval)),
     Knob("facet_size", _facets_missing, _facet_size, chaotic=True),
     Knob("sides", _sides, _words("symmetric", "free")),
-    Knob("preset", _everywhere, _words(*PRESETS)),
+    Knob("preset", _everywhere, _words(*PRESETS), _unset),
 )

@@ -1,5 +1,6 @@
 """Error against CPU time, with the front that nothing beats."""
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
@@ -10,6 +11,7 @@ from peenflow.study.rows import Row, of_kind
 from peenflow.study.survey import Study
 
 LEAST = 1e-5  # error below which a point is drawn there: it equals the reference in all that counts
+NEAR = 0.04  # share of both axes: the names of points nearer to each other would lie over each other
 COLOURS = (drawing.BLUE, drawing.ORANGE, drawing.GREEN, drawing.PURPLE, drawing.SKY, drawing.RED)
 MARKERS = "osD^vP"
 
@@ -35,8 +37,8 @@ def picture(found: Study) -> Figure:
         )  # fmt: skip
     base = found.rows[0]
     axes.plot(base.cpu_s, _shown(base), "*", color=drawing.INK, ms=15, label="the case as it is", zorder=4)
+    axes.margins(x=0.17, y=0.07)
     _name(axes, [each for each in front if each.point.kind == "knob"])
-    axes.margins(0.07)
     _number(axes.yaxis, 100.0)
     _number(axes.xaxis, 1.0)
     axes.set(xlabel="CPU time [s]", ylabel="error of the residual stress profile [%]")
@@ -52,11 +54,17 @@ def _number(axis: Axis, factor: float) -> None:
 
 
 def _name(axes: Axes, rows: list[Row]) -> None:
-    """The values of the front's points, beside them."""
+    """The values of the front's points, on the side where nothing can lie; of near ones the first's."""
+    named: list[np.ndarray] = []
+    size = np.log([axes.get_xlim()[1] / axes.get_xlim()[0], axes.get_ylim()[1] / axes.get_ylim()[0]])
     for each in rows:
-        axes.annotate(
-            each.point.value, (each.cpu_s, _shown(each)), xytext=(7, 5), textcoords="offset points", fontsize=9
-        )
+        at = np.log([each.cpu_s, _shown(each)]) / size
+        if all(np.abs(at - other).max() > NEAR for other in named):
+            named.append(at)
+            axes.annotate(
+                each.point.value, (each.cpu_s, _shown(each)), xytext=(-5, -4), textcoords="offset points",
+                ha="right", va="top", fontsize=9,
+            )  # fmt: skip
 
 
 def _shown(each: Row) -> float:

@@ -74,7 +74,8 @@ def plan(scene: Scene, resolver: Resolver, wanted: Sequence[str] | None) -> Plan
 def _of_knob(knob: Knob, scene: Scene) -> list[Point]:
     key = f"accuracy.{knob.name}"
     kind: Kind = "stream" if knob.chaotic else "knob"
-    return [Point(knob.name, value, {**knob.beside, key: value}, kind) for value in knob.sweep(scene).values]
+    beside = knob.beside(scene)
+    return [Point(knob.name, value, {**beside, key: value}, kind) for value in knob.sweep(scene).values]
 
 
 def _different(points: Sequence[Point], scene: Scene, resolver: Resolver) -> list[Point]:

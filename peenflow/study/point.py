@@ -17,7 +17,7 @@ class Point:
 
     knob: str  # "base", "reference", a knob of [accuracy], or what is not known well
     value: str  # as a person reads it
-    settings: Mapping[str, str]  # key of the case file → value, over the case's own
+    settings: Mapping[str, str]  # key of the case file → value, over the case's own; "": without it
     kind: Kind
 
     @property

@@ -122,7 +122,8 @@ def _accuracy(case: Case, point: Point) -> dict[str, Any]:
         if key in own:
             own[key] = f"{own[key]:.6g} {unit}"
     changed = {key.partition(".")[2]: text for key, text in point.settings.items() if key.startswith("accuracy.")}
-    return own | {key: _number(text) for key, text in changed.items()}
+    stated = {key: value for key, value in own.items() if changed.get(key) != ""}
+    return stated | {key: _number(text) for key, text in changed.items() if text}
 
 
 def _number(text: str) -> Any:

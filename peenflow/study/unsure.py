@@ -69,7 +69,7 @@ def _changed(share: float) -> str:
 
 
 def _diameters(scene: Scene) -> dict[str, dict[str, str]]:
-    diameter = scene.shot.diameter
+    diameter = scene.thrown.shot.diameter  # the mean, which the case states
     return {
         _changed(share): {"shot.diameter": f"{diameter * (1 + share) * 1e3:.6g} mm"} for share in (-DIAMETER, DIAMETER)
     }

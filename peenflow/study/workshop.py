@@ -25,6 +25,7 @@ from peenflow.study.point import Point
 
 KEPT = ("summary.json", "profile.csv", "profile_axis.csv", "impacts.csv", "log.txt", "said.txt", "point.json")
 POLL = 0.1  # s
+LATE, LEAST_LATE = 1.5, 10.0  # times its prediction, and s beyond it, after which a point is said to be late
 
 
 @dataclass(frozen=True)
@@ -68,6 +69,7 @@ class _Running:
     point: Point
     process: subprocess.Popen[bytes]
     began: float
+    said: float = 0.0  # s since then when its lateness was last told
 
 
 def work(shop: Workshop, base: Point, points: Sequence[tuple[Point, float]], progress: Progress) -> None:
@@ -104,7 +106,24 @@ def work(shop: Workshop, base: Point, points: Sequence[tuple[Point, float]], pro
                 running.remove(each)
                 _finish(shop, each, base, progress)
                 done += costs[each.point]
+            for each in running:
+                _tell_late(shop, each, costs[each.point], progress)
             bar.update(done + sum(min(costs[e.point], time.monotonic() - e.began) for e in running))
+
+
+def _tell_late(shop: Workshop, each: _Running, predicted: float, progress: Progress) -> None:
+    """Say that a point is late, and again at twice the time: the bar, which goes by predictions, stands still then."""
+    taken = time.monotonic() - each.began
+    if taken > max(LATE * predicted, predicted + LEAST_LATE, 2 * each.said):
+        each.said = taken
+        progress.note(late(each.point.name, predicted, taken, shop.place(each.point) / "said.txt"))
+
+
+def late(name: str, predicted: float, taken: float, said: Path) -> str:
+    """That a point takes longer than predicted [s], and how far it says itself to be in the file `said`."""
+    last = said.read_text(errors="replace").strip().splitlines()[-1:]
+    told = f"; it says: {last[0]}" if last else ""
+    return f"study: {name} takes longer than predicted, {taken:.0f} s so far instead of {predicted:.0f} s{told}"
 
 
 def _runs(point: Point, running: list[_Running]) -> bool:

@@ -2,14 +2,18 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
+import typing
 from pathlib import Path
 
 import pytest
 from command_line import ROOT, command, one_paragraph, peenflow
+
+from peenflow.cli import app
 
 PLATE = ROOT / "cases" / "plate"
 COARSE = ("--set", "accuracy.mesh_size=0.1 mm", "--set", "target.patch.length=0.5 mm")
@@ -19,12 +23,17 @@ def mesh(out: Path, *more: str) -> subprocess.CompletedProcess[str]:
     return peenflow("run", PLATE, "--out", out, "--until", "mesh", *COARSE, *more)
 
 
+def said(ended: subprocess.CompletedProcess[str]) -> str:
+    """Standard error without the note of a measurement, which comes when it is due."""
+    lines = ended.stderr.splitlines(keepends=True)
+    return "".join(line for line in lines if not line.startswith("measuring this machine's speed"))
+
+
 def test_a_stage_runs_once_and_status_says_so(tmp_path: Path):
     first = mesh(tmp_path)
-    said = [line for line in first.stderr.splitlines() if not line.startswith("measuring this machine's speed")]
-    assert (first.returncode, said[0]) == (0, "mesh: started, first run")
+    assert (first.returncode, said(first).splitlines()[0]) == (0, "mesh: started, first run")
     again = mesh(tmp_path)
-    assert (again.returncode, again.stderr) == (0, "mesh: up to date\n")
+    assert (again.returncode, said(again)) == (0, "mesh: up to date\n")
     told = peenflow("status", PLATE, "--out", tmp_path, *COARSE)
     assert told.returncode == 0
     assert told.stdout.splitlines()[1].split()[:2] == ["mesh", "done"]
@@ -90,6 +99,22 @@ def test_debug_shows_the_traceback_wherever_it_stands(place: tuple[str, ...]):
     assert "Traceback" in ended.stderr
 
 
+COMMANDS = [command.callback.__name__ for command in app.registered_commands if command.callback]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_shows_what_stands_in_brackets(name: str):
+    """A markup that takes them for its own would leave out defaults and names of tables."""
+    callback = next(c.callback for c in app.registered_commands if c.callback and c.callback.__name__ == name)
+    texts = [callback.__doc__ or ""]
+    for annotation in typing.get_type_hints(callback, include_extras=True).values():
+        texts += [part.help or "" for part in getattr(annotation, "__metadata__", ())]
+    shown = peenflow(name, "--help").stdout
+    for text in texts:
+        for word in re.findall(r"\[[^\]]*\]", text):
+            assert word in " ".join(shown.split()), shown
+
+
 def test_help_and_version():
     assert "Run what is not up to date" in peenflow("--help").stdout
     assert peenflow("--version").stdout.startswith("peenflow ")
@@ -107,7 +132,7 @@ def test_check_lists_every_effect_with_its_numbers():
     """The bolt hole: gravity and drag are nothing there; over 2 m light glass loses most of its speed."""
     found = json.loads(peenflow("check", "cases/bolt-hole", "--json").stdout)
     effects = found["effects"]
-    assert len(effects) == 12
+    assert len(effects) == 13
     assert all(made.keys() == {"state", "estimate", "threshold", "why", "cost"} for made in effects.values())
     assert all(0 <= made["estimate"] <= 1 for name, made in effects.items() if not name.endswith("_spread"))
     assert [effects[name]["state"] for name in ("gravity", "air_drag")] == ["auto: off"] * 2
@@ -137,7 +162,7 @@ def test_a_second_run_is_refused_and_told_the_first(tmp_path: Path):
         refused = mesh(tmp_path)
         first.kill()
     assert refused.returncode == 1
-    assert one_paragraph(refused.stderr)
+    assert one_paragraph(said(refused))
     assert f"process {first.pid}" in refused.stderr
     assert mesh(tmp_path).returncode == 0
 
@@ -149,7 +174,7 @@ def test_a_stopped_run_goes_on(tmp_path: Path, number: signal.Signals, status: i
     arguments = command("run", PLATE, "--out", tmp_path, "--until", "mesh", *slow)
     with subprocess.Popen(arguments, stderr=subprocess.PIPE, text=True, cwd=ROOT) as process:
         assert process.stderr is not None
-        assert process.stderr.readline().startswith("mesh: started")
+        assert any(line.startswith("mesh: started") for line in iter(process.stderr.readline, ""))
         process.send_signal(number)
         _, said = process.communicate(timeout=60)
     assert process.returncode == status, said
@@ -161,6 +186,23 @@ def test_a_stopped_run_goes_on(tmp_path: Path, number: signal.Signals, status: i
 
 def mesh_again(out: Path, settings: tuple[str, ...]) -> subprocess.CompletedProcess[str]:
     return peenflow("run", PLATE, "--out", out, "--until", "mesh", *settings)
+
+
+def test_results_of_another_case_are_refused_and_untouched(tmp_path: Path):
+    mesh(tmp_path / "out")
+    peenflow("init", tmp_path / "new")
+    before = (tmp_path / "out" / "target.h5").read_bytes()
+    out = ("--out", tmp_path / "out")
+    submit = ("submit", tmp_path / "new", "--scheduler", "slurm", "--dry-run")
+    for asked in (("run", tmp_path / "new", "--until", "mesh"), ("status", tmp_path / "new"), submit):
+        refused = peenflow(*asked, *out)
+        assert refused.returncode == 2, asked
+        assert one_paragraph(said(refused))
+        assert f"another case, {PLATE}" in refused.stderr
+    assert (tmp_path / "out" / "target.h5").read_bytes() == before
+    assert said(mesh(tmp_path / "out")) == "mesh: up to date\n"
+    assert peenflow("clean", PLATE, *out).returncode == 0
+    assert peenflow("run", tmp_path / "new", "--until", "mesh", *COARSE, *out).returncode == 0
 
 
 def test_clean_removes_results_and_nothing_else(tmp_path: Path):
@@ -181,6 +223,33 @@ def test_submit_shows_a_script_that_runs_the_case(tmp_path: Path):
         f"-m peenflow run {PLATE} --out '{out}' --set 'accuracy.mesh_size=0.1 mm' --set 'target.patch.length=0.5 mm'"
     )
     assert script.endswith(f"{again}\n")
+
+
+def test_submit_writes_no_script_of_a_case_that_check_refuses(tmp_path: Path):
+    endless = ("--set", "accuracy.mesh_size=0.01 um")
+    checked = peenflow("check", PLATE, *endless)
+    refused = peenflow("submit", PLATE, "--scheduler", "slurm", "--out", tmp_path / "out", "--dry-run", *endless)
+    assert (refused.returncode, refused.stderr) == (2, checked.stderr)
+    assert not (tmp_path / "out").exists()
+
+
+def test_submit_warns_of_less_than_is_predicted(tmp_path: Path):
+    asked = ("--time", "00:00:01", "--memory", "1 MB")
+    shown = peenflow("submit", PLATE, "--scheduler", "slurm", "--out", tmp_path, "--dry-run", *COARSE, *asked)
+    assert shown.returncode == 0
+    warnings = [line for line in shown.stderr.splitlines() if line.startswith("Warning: the job asks for")]
+    assert ["--time" in line for line in warnings] == [True, False]
+    assert ["--memory" in line for line in warnings] == [False, True]
+    enough = ("--time", "1-00:00:00", "--memory", "4 GB")
+    shown = peenflow("submit", PLATE, "--scheduler", "slurm", "--out", tmp_path, "--dry-run", *COARSE, *enough)
+    assert "the job asks" not in shown.stderr
+
+
+def test_check_warns_of_what_this_machine_cannot_bear():
+    huge = ("--set", "accuracy.mesh_size=0.5 um", "--set", "exposure.duration=10 s")
+    warnings = json.loads(peenflow("check", PLATE, "--json", *huge).stdout)["warnings"]
+    assert any("GB of memory, and this machine has" in warning for warning in warnings)
+    assert any("predicted to take" in warning and "days" in warning for warning in warnings)
 
 
 def test_submit_without_the_scheduler_is_wrong_input(tmp_path: Path):

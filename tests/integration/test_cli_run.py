@@ -1,6 +1,7 @@
 """A small case from end to end: nine given impacts on a coarse block."""
 
 import json
+import shutil
 import signal
 import subprocess
 import time
@@ -8,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import ROOT, command, peenflow, states
+from command_line import ROOT, command, one_paragraph, peenflow, states
 
 from peenflow.records import hdf5
 from peenflow.records.response import Response
@@ -106,3 +107,32 @@ def test_a_run_stopped_in_the_solver_goes_on_to_the_same_result(tmp_path: Path):
         assert run(out, "--until", "solve", *FINER).returncode == 0
     ours, theirs = (hdf5.load(Response, place / "response.h5") for place in (whole, stopped))
     assert np.array_equal(ours.stress, theirs.stress)
+
+
+def test_a_page_is_named_only_by_a_run_that_ends_with_it(finished: Path):
+    again = run(finished, *COARSE)
+    assert again.stdout.splitlines()[-1] == f"Results: {finished / 'report' / 'index.html'}"
+    part = run(finished, *COARSE, "--until", "mesh")
+    assert part.stdout.splitlines()[-1] == f"Results: {finished}"
+    assert "residual stress" not in part.stdout
+
+
+def test_a_run_that_changes_something_leaves_no_page_of_an_earlier_one(finished: Path, tmp_path: Path):
+    subprocess.run(["cp", "-a", f"{finished}/.", str(tmp_path)], check=True)
+    part = run(tmp_path, *FINER, "--until", "translate")
+    assert part.returncode == 0, part.stderr
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left.isdisjoint({"summary.json", "report", "profile.csv", "profile_axis.csv", "impacts.csv", "response.vtu"})
+    assert "response.h5" in left  # it took long, and may be wanted again
+    back = run(tmp_path, *COARSE)
+    assert states(back)["solve"] == "cached"
+    assert (tmp_path / "profile.csv").read_bytes() == (finished / "profile.csv").read_bytes()
+
+
+def test_another_deck_is_not_solved_into_a_cases_results(finished: Path, tmp_path: Path):
+    shutil.copytree(finished / "fe", tmp_path / "deck")
+    refused = peenflow("solve", tmp_path / "deck", "--out", finished)
+    assert refused.returncode == 2
+    assert one_paragraph(refused.stderr)
+    assert "the results of another case" in refused.stderr
+    assert states(run(finished, *COARSE))["solve"] == "cached"

@@ -127,7 +127,8 @@ def test_a_truncated_file_is_stated_and_mended(
     mended = run(thrown, cache)
     assert mended.returncode == 0, mended.stderr
     assert f"{stage}: started, {why}" in mended.stderr
-    assert [name for name, state in states(mended).items() if state == "done"] == [stage]
+    # the page goes as soon as a stage is not up to date, for it may tell of another run, and is made again
+    assert [name for name, state in states(mended).items() if state == "done"] == [stage, "report"]
     for name in ("contacts.h5", "impacts.csv"):
         assert (thrown / name).read_bytes() == (undisturbed / name).read_bytes()
     facets = Path("dem", "shard-000", "target.stl")

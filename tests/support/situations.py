@@ -18,19 +18,17 @@ def situation(name: str, *settings: str) -> Situation:
     """Of `cases/NAME`, which has nozzles, with restitution 0.57; hits taken as normal, the flight as to the origin."""
     case, directory = read_case(CASES / name, [f"dem.restitution={RESTITUTION}", *settings])
     surface, thrown = surfaces.of(case, directory), shots.thrown(case.shot, case.shot.size_spread)
-    target = case.target
-    material = library.material(
-        target.material, target.constants, target.johnson_cook, target.temperature, target.kinematic_hardening
-    )
+    material = library.of_target(case.target)
     speed = max(nozzle.speed for nozzle in case.nozzle)
+    predicted = dent.predict(speed, thrown.shot, material)
     return Situation(
         case=case,
         shot=thrown.shot,
         thrown=thrown,
         material=material,
-        dent=dent.predict(speed, thrown.shot, material),
+        dent=predicted,
         restitution=RESTITUTION,
-        depth=patch_depth(case, thrown.shot),
+        depth=patch_depth(case, thrown.shot, predicted.plastic_radius),
         flight=max(math.dist(nozzle.position, (0, 0, 0)) for nozzle in case.nozzle),
         normal_speed=speed,
         slant=0.0,

@@ -50,6 +50,7 @@ def hole_stream(**changes: object) -> Stream:
         seed=1,
         time_step_share=0.2,
         interval=2,
+        spin=False,
     )
     return dataclasses.replace(stream, **changes)
 

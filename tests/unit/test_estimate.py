@@ -55,6 +55,16 @@ def test_counts_the_elements_the_mesh_has(case: str, tmp_path: Path) -> None:
     assert estimate(coarse)["fe"]["elements"] == len(mesh.run(inputs, tmp_path, Silent()).patch.hexes)
 
 
+def test_the_time_leaves_out_elements_that_sleep_and_says_so() -> None:
+    """How many do is the matter of where impacts fall: 2 % of the patch's, 26 and 42 % of a plate of 2.4 mm."""
+    plain, asleep = (estimate(scene("plate", f"accuracy.active_radius={radius}")) for radius in ("off", "1.5"))
+    assert asleep["stages"] == plain["stages"]
+    assert not any("active_radius" in warning for warning in plain["warnings"])
+    assert any("accuracy.active_radius lets sleep" in warning for warning in asleep["warnings"])
+    pressed = estimate(scene("plate", "accuracy.active_radius=1.5", "accuracy.load=pressure"))
+    assert not any("lets sleep" in warning for warning in pressed["warnings"])
+
+
 def test_only_stages_with_work_are_predicted() -> None:
     assert stages(estimate(scene("single-shot"))) == ["calibrate", "report"]
     assert stages(estimate(scene("patch"))) == ["mesh", "translate", "solve", "report"]
@@ -74,7 +84,7 @@ def test_finer_costs_more() -> None:
     [
         ("accuracy.hourglass=0.5", "hourglass control will hold some"),
         ("accuracy.mesh_size=0.05 mm", "do not resolve a dent"),
-        ("exposure.duration=0.06 ms", "less than one impact is expected on the patch"),
+        ('target.patch.at=["9 mm", "0 mm"]', "less than one impact is expected on the patch"),
     ],
 )
 def test_warns(setting: str, expected: str) -> None:
@@ -148,3 +158,64 @@ def test_a_whole_run_takes_its_stages_and_the_start() -> None:
     plate = scene("plate")
     stages = sum(row["predicted_wall_s"] for row in estimate(plate)["stages"])
     assert predicted_wall(plate) == pytest.approx(stages + START, rel=1e-2)
+
+
+def test_impacts_that_keep_their_own_times_take_the_steps_from_the_first_to_the_last(tmp_path: Path) -> None:
+    """The deck of the bolt hole at draft ends after 2.42 ms, 609,000 steps; of two impacts 10 ms apart it is known."""
+    grouped, own = (
+        scene("bolt-hole", "accuracy.preset=draft", *more) for more in ([], ["accuracy.group_distance=off"])
+    )
+    assert estimate(grouped)["fe"]["steps"] < 50_000
+    assert 609_000 < estimate(own)["fe"]["steps"] < 3 * 609_000
+    assert predicted_wall(own) > 20 * predicted_wall(grouped)
+    assert any("keeps the impacts' own times" in warning for warning in estimate(own)["warnings"])
+    assert not any("own times" in warning for warning in estimate(grouped)["warnings"])
+
+    rows = ["0,0,0,0,0,0,-60", "10e-3,0,0,0,0,0,-60"]
+    (tmp_path / "shots.csv").write_text("t_s,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n" + "\n".join(rows))
+    (tmp_path / "case.toml").write_text((CASES / "patch" / "case.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    found = estimate(resolve(*read_case(tmp_path)))
+    assert found["fe"]["steps"] == pytest.approx(1.1 * 10e-3 / found["fe"]["time_step_s"], rel=0.01)
+    assert any("keeps the impacts' own times" in warning for warning in found["warnings"])
+    assert not any("own times" in warning for warning in estimate(scene("patch"))["warnings"])
+
+
+def warned(about: str, name: str, *settings: str) -> list[str]:
+    return [warning for warning in estimate(scene(name, *settings))["warnings"] if about in warning]
+
+
+def test_a_mesh_is_coarse_by_the_speed_along_the_normal() -> None:
+    """Off the rod shots meet the wall with 35.7 of 62.5 m/s and leave dents of 46 instead of 61 µm."""
+    draft = "accuracy.preset=draft"
+    told = warned("do not resolve a dent", "bolt-hole", draft)
+    assert len(told) == 1
+    assert "45.9 µm radius, which hits of 35.7 m/s along the normal leave" in told[0]
+    for quiet in ("plate", "blade-fillet", "single-shot"):
+        assert warned("do not resolve a dent", quiet, draft) == []
+    sharp = warned("do not resolve a dent", "single-shot", "accuracy.mesh_size=0.025 mm", "single_shot.angle=30 deg")
+    assert len(sharp) == 1
+    assert warned("do not resolve a dent", "single-shot", "accuracy.mesh_size=0.025 mm") == []
+
+
+def test_warns_of_a_patch_that_ends_where_soft_metal_still_yields() -> None:
+    copper = ("accuracy.preset=draft", "target.material=ofhc-copper")
+    told = warned("the compressed layer may reach its bottom", "plate", *copper, "accuracy.depth=0.373 mm")
+    assert len(told) == 1
+    assert "Raise accuracy.depth to 0.64 mm" in told[0]
+    for quiet in (copper, ("accuracy.preset=draft",), (*copper, "target.geometry.thickness=0.5 mm")):
+        assert warned("the compressed layer", "plate", *quiet) == []
+
+
+@pytest.mark.parametrize(
+    ("settings", "expected"),
+    [
+        (("target.geometry.thickness=0.3 mm",), "its back lies on a rigid, frictionless support"),
+        (("target.geometry.thickness=1 mm",), "as if it had no back"),
+        (("target.geometry.thickness=2 mm",), None),
+        (("target.geometry.thickness=0.3 mm", "accuracy.boundary=fixed"), None),
+        (("target.geometry.thickness=1 mm", "accuracy.boundary=far-field"), None),
+    ],
+)
+def test_warns_of_what_stands_behind_a_thin_plate(settings: tuple[str, ...], expected: str | None) -> None:
+    told = warned("the plate,", "plate", "accuracy.preset=draft", *settings)
+    assert [expected in warning for warning in told] == [True] if expected else told == []

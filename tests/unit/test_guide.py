@@ -29,6 +29,7 @@ SECTIONS: dict[str, tuple[type[BaseModel], ...]] = {
     "air": (model.AirSection,),
     "exposure": (model.Exposure,),
     "impacts": (model.ImpactsFile,),
+    "impacts.columns": (model.ImpactColumns,),
     "contacts": (model.ContactsFile,),
     "contacts.columns": (model.ContactColumns,),
     "single_shot": (model.SingleShot,),

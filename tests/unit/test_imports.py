@@ -14,6 +14,7 @@ PACKAGE = ROOT / "peenflow"
 STAGE_PACKAGES = {stage.package for stage in STAGES}
 MAY_USE = {"calibrate": {"fe"}}
 ABOVE_STAGES = {
+    "arrivals",
     "export",
     "surfaces",
     "pipeline",
@@ -27,7 +28,9 @@ ABOVE_STAGES = {
     "bench",
     "study",
     "machine",
+    "bearable",
 }
+SHARING = {"estimate", "arrivals", "bench", "study", "export"}
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
 
@@ -54,11 +57,12 @@ def test_what_stages_share_imports_no_stage(package: str):
 
 
 def test_what_runs_the_stages_imports_them_by_name_only_when_they_are_due():
-    """`estimate` shares closed forms with them, and is quick to import; `study` draws as the report does."""
+    """`estimate` and its `arrivals` share closed forms with them, quick to import; `study` draws as the report does."""
     above = [
         m
         for m in MODULES
-        if m.relative_to(PACKAGE).with_suffix("").parts[0] in ABOVE_STAGES - {"estimate", "bench", "study", "export"}
+        if m.relative_to(PACKAGE).with_suffix("").parts[0]
+        in ABOVE_STAGES - {"estimate", "arrivals", "bench", "study", "export"}
     ]
     assert above
     breaches = [(str(m.relative_to(ROOT)), n) for m in above for n in imports(m) if parts(n)[0] in STAGE_PACKAGES]

@@ -28,7 +28,7 @@ def test_the_bolt_hole() -> None:
     assert found.knobs.boundary == "far-field"
     assert found.thrown.per_second(found.case.nozzle[0]) == 40000
     on = {name for name, decision in found.effects.items() if decision.on}
-    flow = {"rate_hardening", "kinematic_hardening", "contact_friction"}
+    flow = {"rate_hardening", "kinematic_hardening", "contact_friction", "shot_spin"}
     assert on == flow | {"shot_collisions", "deflector_motion", "far_field"}
     assert found.material.rate is not None
     assert found.material.thermal is None
@@ -79,6 +79,55 @@ def test_a_thin_plate_is_meshed_through_and_has_nothing_behind() -> None:
     assert found.knobs.depth == pytest.approx(0.5e-3)
     assert found.knobs.boundary == "fixed"
     assert not found.effects["far_field"].on
+
+
+def test_under_soft_metal_and_hard_hits_the_patch_reaches_below_what_yields() -> None:
+    """One hit of 62.5 m/s on copper leaves compression down to 0.41 mm, by explicit FE; 1.05 diameters are 0.37 mm."""
+    copper = scene("plate", "accuracy.preset=draft", "target.material=ofhc-copper").knobs.depth
+    harder = scene("plate", "accuracy.preset=draft", "target.material=ofhc-copper", "nozzle.0.speed=150 m/s")
+    assert copper == pytest.approx(1.55 * 0.412e-3, rel=0.02)
+    assert harder.knobs.depth > 1.5 * 0.657e-3
+    stated = scene("plate", "accuracy.preset=draft", "target.material=ofhc-copper", "accuracy.depth=0.3 mm")
+    assert stated.knobs.depth == pytest.approx(0.3e-3)
+    cad = scene("blade-fillet", "target.material=ofhc-copper")
+    assert cad.knobs.depth == pytest.approx(copper)
+
+
+@pytest.mark.parametrize(
+    ("thickness", "settings", "depth", "boundary"),
+    [
+        (0.5, (), 0.5, "fixed"),
+        (0.5, ("accuracy.boundary=fixed",), 0.5, "fixed"),
+        (0.5, ("accuracy.boundary=far-field",), 1.05 * 0.3556, "far-field"),
+        (0.5, ("effects.far_field=on", "target.material=ofhc-copper"), 1.05 * 0.3556, "far-field"),
+        (0.5, ("accuracy.depth=0.4 mm",), 0.4, "far-field"),
+        (0.6, (), 1.05 * 0.3556, "far-field"),
+    ],
+)
+def test_a_plate_hardly_thicker_than_the_patch_is_meshed_through(
+    thickness: float, settings: tuple[str, ...], depth: float, boundary: str
+) -> None:
+    found = scene("plate", "accuracy.preset=draft", f"target.geometry.thickness={thickness} mm", *settings).knobs
+    assert (found.depth, found.boundary) == (pytest.approx(depth * 1e-3), boundary)
+
+
+def test_the_hardest_hits_speed_along_the_normal() -> None:
+    tilted = [0.0, math.sin(math.radians(40)), -math.cos(math.radians(40))]
+    assert scene("plate").normal_speed == 62.5
+    assert scene("plate", "nozzle.0.cone=20 deg").normal_speed == 62.5
+    oblique = scene("plate", f"nozzle.0.direction={tilted}", "nozzle.0.cone=20 deg")
+    assert oblique.normal_speed == pytest.approx(62.5 * math.cos(math.radians(30)))
+    assert scene("bolt-hole").normal_speed == pytest.approx(35.7, abs=0.05)
+    assert scene("blade-fillet").normal_speed == pytest.approx(62.5, rel=1e-3)
+    assert scene("single-shot", "single_shot.angle=30 deg").normal_speed == pytest.approx(31.25)
+
+
+def test_of_a_table_the_hardest_impacts_speed_along_the_normal(tmp_path: Path) -> None:
+    rows = ["0,0,0,0,50,0,-20", "1e-6,0,0,0,0,0,-30"]
+    (tmp_path / "shots.csv").write_text("t_s,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n" + "\n".join(rows))
+    (tmp_path / "case.toml").write_text((CASES / "patch" / "case.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    found = resolve(*read_case(tmp_path))
+    assert (found.speed, found.normal_speed) == (pytest.approx(math.hypot(50, 20)), 30.0)
 
 
 def test_boundary_decides_the_far_field() -> None:

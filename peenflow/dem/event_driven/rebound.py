@@ -89,6 +89,7 @@ def strike(law, table, hits, row, shot, now):
     hit.t, hit.approach = now, max(0.0, -dot(g, n))
     put(hit.point, plus(of(shot.x), -shot.radius, n))
     put(hit.velocity, of(shot.v))
+    put(hit.spin, of(shot.spin))
     hit.restitution = law.wall
     if hit.surface == 0 and len(table.speed):
         hit.restitution = hardened(table, hits, row)

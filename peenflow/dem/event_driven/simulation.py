@@ -94,6 +94,7 @@ def collected(stream: Stream, world: state.World) -> tuple[Contacts, Statistics]
         shots=int(flown.sum()),
         engine=f"event-driven, peenflow {peenflow.__version__}",
         time_step=0.0,
+        spin=hits["spin"].copy() if stream.spin else None,
     )
     return contacts, _statistics(world.tally, hits, shots)
 

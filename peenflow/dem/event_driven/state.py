@@ -73,6 +73,7 @@ HIT = _record(
     point=_VECTOR,
     normal=_VECTOR,  # from the wall to the shot
     velocity=_VECTOR,  # before the hit
+    spin=_VECTOR,  # before the hit
     wall_velocity=_VECTOR,
     approach=np.float64,  # m/s, along the normal
     restitution=np.float64,

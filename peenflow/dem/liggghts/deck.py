@@ -19,7 +19,7 @@ from peenflow.dem.liggghts.seeds import prime_seed
 from peenflow.errors import InputError
 from peenflow.scene import STANDARD_GRAVITY
 
-DECK, DUMP = "deck.in", "contacts.dump"
+DECK, DUMP, SPINS = "deck.in", "contacts.dump", "spins.dump"
 COLUMNS = 19  # of the contact dump (see `dump`)
 PACKET = 8  # shots inserted at once, where nothing speaks against it
 LONGEST_PACKET = 25e-3  # m behind the nozzle: keeps the domain small where shots are rare
@@ -93,6 +93,7 @@ def build(stream: Stream, shard: int) -> Deck:
         sizes=sizes_of(stream, shard),
         drag=drag,
         dump=DUMP,
+        spins=SPINS,
         columns=[f"c_contacts[{column + 1}]" for column in range(COLUMNS)],
         travel=_travel_steps(stream, steps),
         gravity=STANDARD_GRAVITY,

@@ -1,19 +1,26 @@
-"""The contact dump: snapshots of rows, most of them empty, read in blocks of bounded size."""
+"""The contact dump, and that of the spins beside it, read in blocks of bounded size."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import BinaryIO
 
 import numpy as np
 
 from peenflow.dem.liggghts.deck import COLUMNS
-from peenflow.errors import RunError
+from peenflow.dem.liggghts.snapshots import damaged, numbers, snapshots
 
 BLOCK = 20_000  # rows
-LONGEST = 4096  # bytes of a line; 19 numbers take 300
 INDICES = slice(12, 15)  # columns of mesh, triangle and shot
 LARGEST_INDEX = 2**31
+SPIN_COLUMNS = 7  # shot, spin, torque
+
+
+@dataclass(frozen=True)
+class Turning:
+    """How the shots of contact rows turn."""
+
+    spin: np.ndarray  # (n, 3) rad/s, at the end of the step
+    torque: np.ndarray  # (n, 3) N m, in the step, of all that touches the shot
 
 
 @dataclass(frozen=True)
@@ -30,82 +37,63 @@ class Rows:
     number: np.ndarray  # (n,) int64, LIGGGHTS' number of the shot
     force: np.ndarray  # (n, 3) N, re-evaluated at the end of the step
     overlap: np.ndarray  # (n,) m
+    turning: Turning | None = None  # None: not dumped
 
 
-def blocks(path: Path, last_step: int, interval: int, size: int = BLOCK) -> Iterator[Rows]:
+def blocks(path: Path, last_step: int, interval: int, size: int = BLOCK, spins: Path | None = None) -> Iterator[Rows]:
     """All rows of the dump, at least `size` at a time (but for the last block), snapshots never split.
 
+    With `spins`, the dump of the shots that something rubs, each row gets its shot's spin and torque of the same step.
+
     Raises:
-        RunError: the dump is cut, damaged, holds NaN, or lacks a step of 0, `interval`, … `last_step`.
+        RunError: a dump is cut, damaged, holds NaN, or lacks a step of 0, `interval`, … `last_step`.
     """
     steps: list[int] = []
     lines: list[bytes] = []
-    due = 0
-    try:
-        dump = open(path, "rb")  # noqa: SIM115 (closed by the `with` below)
-    except OSError as error:
-        raise _damaged(path, f"cannot be read ({error.strerror})") from error
-    with dump:
-        while (snapshot := _snapshot(dump, path)) is not None:
-            step, rows = snapshot
-            if step != due:
-                raise _damaged(path, f"goes on with step {step} where step {due} is due")
-            due += interval
-            steps += [step] * len(rows)
-            lines += rows
-            if len(lines) >= size:
-                yield _rows(steps, lines, path)
-                steps, lines = [], []
-    if due != last_step + interval:
-        raise _damaged(path, f"ends before step {due} of {last_step}")
+    rubbed_steps: list[int] = []
+    rubbed: list[bytes] = []
+
+    def rows() -> Rows:
+        found = _rows(steps, numbers(steps, lines, COLUMNS, path), path)
+        if spins is None:
+            return found
+        turns = numbers(rubbed_steps, rubbed, SPIN_COLUMNS, spins)
+        return replace(found, turning=_turning(found, np.array(rubbed_steps, np.int64), turns, spins))
+
+    for step, some, turned in _side_by_side(path, spins, last_step, interval):
+        if not some:
+            continue
+        steps += [step] * len(some)
+        lines += some
+        rubbed_steps += [step] * len(turned)
+        rubbed += turned
+        if len(lines) >= size:
+            yield rows()
+            for full in (steps, lines, rubbed_steps, rubbed):
+                full.clear()
     if lines:
-        yield _rows(steps, lines, path)
+        yield rows()
 
 
-def _snapshot(dump: BinaryIO, path: Path) -> tuple[int, list[bytes]] | None:
-    """Step and rows of the next snapshot; None at the file's end."""
-    title = dump.readline(LONGEST)
-    if not title:
-        return None
-    try:
-        step = int(dump.readline(LONGEST))
-        count_title, count = dump.readline(LONGEST), int(dump.readline(LONGEST))
-    except ValueError:
-        raise _damaged(path, f"is cut or damaged near byte {dump.tell()}") from None
-    header = [dump.readline(LONGEST) for _ in range(5)]  # bounds' title and three lines, columns' title
-    rows: list[bytes] = []
-    while len(rows) < count and (row := dump.readline(LONGEST)):  # a damaged count may be beyond any memory
-        rows.append(row)
-    whole = (
-        title == b"ITEM: TIMESTEP\n"
-        and count_title.startswith(b"ITEM: NUMBER OF ENTRIES")
-        and header[-1].startswith(b"ITEM: ENTRIES")
-        and (rows or header)[-1].endswith(b"\n")
-        and len(rows) == count
-    )
-    if not whole:
-        raise _damaged(path, f"is cut or damaged in the snapshot of step {step}")
-    return step, rows
+def _side_by_side(
+    path: Path, spins: Path | None, last_step: int, interval: int
+) -> Iterator[tuple[int, list[bytes], list[bytes]]]:
+    """Step, contacts and spins of each snapshot."""
+    contacts = snapshots(path, "ENTRIES", last_step, interval)
+    if spins is None:
+        yield from ((step, rows, []) for step, rows in contacts)
+    else:
+        turned = snapshots(spins, "ATOMS", last_step, interval)
+        yield from ((step, rows, others) for (step, rows), (_, others) in zip(contacts, turned, strict=True))
 
 
-def _rows(steps: list[int], lines: list[bytes], path: Path) -> Rows:
-    try:
-        table = np.array([line.split() for line in lines], dtype=float)
-    except ValueError:
-        table = np.empty(0)
-    if table.shape != (len(lines), COLUMNS):
-        raise _damaged(path, f"has a damaged row between steps {steps[0]} and {steps[-1]}")
-    if not np.isfinite(table).all():
-        bad = np.flatnonzero(~np.isfinite(table).all(axis=1))[0]
-        raise RunError(
-            f"{path} holds a contact that is not a number at step {steps[bad]}: the contact law diverged. "
-            "Lower accuracy.dem_time_step."
-        )
-    indices = table[:, INDICES]
+def _check_indices(indices: np.ndarray, of: str, steps: Sequence[int] | np.ndarray, path: Path) -> None:
     if not ((indices == np.rint(indices)) & (indices >= 0) & (indices < LARGEST_INDEX)).all():
-        raise _damaged(
-            path, f"has a number of mesh, triangle or shot that is none between steps {steps[0]} and {steps[-1]}"
-        )
+        raise damaged(path, f"has a number of {of} that is none between steps {steps[0]} and {steps[-1]}")
+
+
+def _rows(steps: list[int], table: np.ndarray, path: Path) -> Rows:
+    _check_indices(table[:, INDICES], "mesh, triangle or shot", steps, path)
     return Rows(
         step=np.array(steps, np.int64),
         point=table[:, 0:3],
@@ -120,8 +108,17 @@ def _rows(steps: list[int], lines: list[bytes], path: Path) -> Rows:
     )
 
 
-def _damaged(path: Path, how: str) -> RunError:
-    return RunError(
-        f"{path} {how}, though LIGGGHTS ended as if all were well: the disk may have been full for a while. "
-        "Make room and run again; finished shards are kept."
-    )
+def _turning(rows: Rows, step: np.ndarray, table: np.ndarray, path: Path) -> Turning:
+    """Spin and torque of each contact row's shot, from the rubbed shots' `table` (m, 7) at `step`s (m,).
+
+    A shot that touches without a torque is not dumped: it still waits at its nozzle, or flies straight at the wall. It
+    does not spin, for to roll without any slip, to the last bit, never happens.
+    """
+    _check_indices(table[:, 0], "a shot", step, path)
+    keys = [np.stack([step, table[:, 0].astype(np.int64)], axis=1), np.stack([rows.step, rows.number], axis=1)]
+    key = np.unique(np.concatenate(keys), axis=0, return_inverse=True)[1].ravel()
+    place = np.full(key.max() + 1, -1)
+    place[key[: len(step)]] = np.arange(len(step))
+    place = place[key[len(step) :]]
+    known = np.concatenate([table[:, 1:], np.zeros((1, 6))])  # the last for −1: none
+    return Turning(spin=known[place, :3], torque=known[place, 3:])

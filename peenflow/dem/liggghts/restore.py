@@ -9,12 +9,13 @@ The mid-step velocity of a contact's first step is that of free flight.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from peenflow.dem.engine import Walls
-from peenflow.dem.liggghts.dump import Rows
+from peenflow.dem.liggghts.dump import Rows, Turning
 from peenflow.scene import ShotProperties
 
 
@@ -59,23 +60,46 @@ def restore(rows: Rows, law: Law, time_step: float, interval: int) -> tuple[np.n
     contact began in one of the `interval` − 1 steps that were not dumped: these are undone as well, the tangential
     force taken in proportion to the normal one.
     """
-    normal = rows.centre - rows.point
-    normal /= np.linalg.norm(normal, axis=1)[:, None]
-    approach = -np.einsum("ij,ij->i", rows.velocity - rows.wall_velocity, normal)
-    h, push = law.mid_step(rows.overlap, approach, time_step / (2 * law.mass))
+    normal, h, push = _mid_step(rows, law, time_step)
     tangential = rows.force - np.einsum("ij,ij->i", rows.force, normal)[:, None] * normal
     force = push[:, None] * normal + tangential
     shot_and_step = np.unique(np.stack([rows.step, rows.number]), axis=1, return_inverse=True)[1].ravel()
     pushed = (time_step / law.mass)[:, None]
     velocity = rows.velocity - pushed / 2 * _summed(force, shot_and_step)
-    overlap = rows.overlap
+    for before, share in _undumped(rows.overlap, h, push, law, time_step, interval):
+        step_force = before[:, None] * normal + share[:, None] * tangential
+        velocity = velocity - pushed * _summed(step_force, shot_and_step)
+    return force, velocity
+
+
+def spin_before(rows: Rows, turning: Turning, law: Law, time_step: float, interval: int) -> np.ndarray:
+    """Spin (n, 3) [rad/s] before the contact, meant for its first row: what `restore` undoes, undone of the spin.
+
+    The torque is the integrator's own; that of a step which was not dumped is taken in proportion to the normal force.
+    """
+    _, h, push = _mid_step(rows, law, time_step)
+    steps = 0.5 + sum(share for _, share in _undumped(rows.overlap, h, push, law, time_step, interval))
+    inertia = 0.4 * law.mass * law.radius**2
+    return np.asarray(turning.spin - (steps * time_step / inertia)[:, None] * turning.torque)
+
+
+def _mid_step(rows: Rows, law: Law, time_step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Normals (n, 3), and approach speeds (n,) [m/s] and pushes (n,) [N] at mid-step."""
+    normal = rows.centre - rows.point
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    approach = -np.einsum("ij,ij->i", rows.velocity - rows.wall_velocity, normal)
+    return normal, *law.mid_step(rows.overlap, approach, time_step / (2 * law.mass))
+
+
+def _undumped(
+    overlap: np.ndarray, h: np.ndarray, push: np.ndarray, law: Law, time_step: float, interval: int
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Pushes (n,) [N] of the `interval` − 1 steps before the row's, latest first, and over the row's; 0: no contact."""
     for _ in range(interval - 1):
         overlap = np.maximum(overlap - h * time_step, 0)
         h, before = law.mid_step(overlap, h, time_step / law.mass)
         share = np.divide(before, push, out=np.zeros_like(push), where=push > 0).clip(0, 1)
-        step_force = np.where(overlap > 0, before, 0)[:, None] * normal + share[:, None] * tangential
-        velocity = velocity - pushed * _summed(step_force, shot_and_step)
-    return force, velocity
+        yield np.where(overlap > 0, before, 0), np.where(overlap > 0, share, 0)
 
 
 def diameters(rows: Rows, sizes: np.ndarray) -> np.ndarray:

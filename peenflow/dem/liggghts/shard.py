@@ -5,7 +5,7 @@ import hashlib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -14,12 +14,12 @@ from peenflow.dem.liggghts import deck as decks
 from peenflow.dem.liggghts import dump, log
 from peenflow.dem.liggghts.late import spoilt
 from peenflow.dem.liggghts.process import LOG
-from peenflow.dem.liggghts.restore import Law, diameters, restore
+from peenflow.dem.liggghts.restore import Law, diameters, restore, spin_before
 from peenflow.errors import InputError, RunError
 from peenflow.files import write_text_whole
 from peenflow.records import hdf5
 from peenflow.records.contacts import Contacts
-from peenflow.records.fields import of, quantities
+from peenflow.records.fields import of
 
 RECORD = "contacts.h5"
 
@@ -59,12 +59,13 @@ class Shard:
 
     def write(self) -> None:
         """Deck and facets into the shard's directory."""
-        (self.directory / RECORD).unlink(missing_ok=True)
+        for left in (RECORD, decks.SPINS):
+            (self.directory / left).unlink(missing_ok=True)
         for name, text in self.deck.files.items():
             write_text_whole(self.directory / name, text)
 
     def collect(self, status: int) -> Finished:
-        """Check the run that ended with exit `status`, keep its contacts and remove its dump.
+        """Check the run that ended with exit `status`, keep its contacts and remove its dumps.
 
         Raises:
             RunError: the run was not whole.
@@ -74,23 +75,27 @@ class Shard:
         contacts, spoilt_shots = self._sound(self._contacts(told))
         finished = Finished(contacts, self.digest, spoilt_shots)
         hdf5.save(finished, self.directory / RECORD)
-        (self.directory / decks.DUMP).unlink()
+        for dumped in (decks.DUMP, decks.SPINS) if self.stream.spin else (decks.DUMP,):
+            (self.directory / dumped).unlink()
         return finished
 
     def _sound(self, contacts: Contacts) -> tuple[Contacts, int]:
         """The contacts without those of spoilt shots, and how many shots these are."""
         step = np.rint(contacts.t / contacts.time_step).astype(np.int64)
         out = spoilt(self.stream, step, contacts.shot, contacts.surface, contacts.overlap)
-        rows = {name: getattr(contacts, name)[~out] for name, told in quantities(Contacts).items() if told.shape}
+        rows: dict[str, Any] = {name: values[~out] for name, values in contacts.rows().items()}
         return dataclasses.replace(contacts, **rows), len(np.unique(contacts.shot[out]))
 
     def _contacts(self, told: log.Log) -> Contacts:
         stream = self.stream
-        parts = []
-        for rows in dump.blocks(self.directory / decks.DUMP, self.deck.steps, stream.interval):
+        parts, before = [], []
+        spins = self.directory / decks.SPINS if stream.spin else None
+        for rows in dump.blocks(self.directory / decks.DUMP, self.deck.steps, stream.interval, spins=spins):
             diameter = diameters(rows, stream.diameters)
             law = Law.of(stream.shot, stream.walls, diameter)
             parts.append((rows, diameter, *restore(rows, law, stream.time_step, stream.interval)))
+            if rows.turning is not None:
+                before.append(spin_before(rows, rows.turning, law, stream.time_step, stream.interval))
 
         def joined(arrays: list[np.ndarray], like: tuple[int, ...], dtype: type) -> np.ndarray:
             return np.concatenate([np.empty(like, dtype), *arrays])
@@ -114,6 +119,7 @@ class Shard:
             shots=sum(insertion.count for insertion in told.insertions),
             engine=told.version,
             time_step=stream.time_step,
+            spin=joined(before, (0, 3), float) if stream.spin else None,
         )
 
 

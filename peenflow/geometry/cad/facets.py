@@ -21,7 +21,7 @@ def facets(gmsh: ModuleType, faces: Faces, size: float, shot: float, thrown: boo
         gmsh: with the part as its current model.
         faces: of it, to be covered.
         size: of the edges, about which the mesher's scatter; it grows until none is shorter than `size` over `SCATTER`.
-        shot: diameter of the shots.
+        shot: diameter of the smallest shots, to which chords are held.
         thrown: shots are thrown at the facets.
 
     Raises:

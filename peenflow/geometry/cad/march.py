@@ -15,6 +15,8 @@ FARTHEST_FOOT = 0.5  # steps from where one aims: farther, another face was met
 SQUEEZED = 0.3  # of their first distance, nearer than which neighbouring geodesics are given up
 DEEPEST = 0.8  # of the radius of a rounding: elements below are that much narrower than at the surface
 FARTHEST = 0.5  # mm from the faces at which the case may say the patch lies
+OVERLAP = 3.0  # cells' diagonals: nodes farther apart along the surface, and less than one in space, meet
+THINNED = 4  # nodes, of which one is looked at where the chart grows beyond the patch
 UMBILIC = 1e-6  # 1/mm: curvatures no farther apart have no direction
 
 
@@ -24,7 +26,7 @@ class Reach:
 
     half: tuple[float, float]  # half sizes of the patch
     depth: float
-    shot_radius: float
+    shot_radius: float  # of the largest
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,11 @@ def march(faces: Faces, at: np.ndarray, reach: Reach) -> Chart:
         _Line(spine.points[:, 0], spine.normals[:, 0], spine.on[:, 0]),
     )
     points, normals, on = rows.points, rows.normals, rows.on & spine.on[:, 0] & _apart(rows.points, spacing[1])
-    box = _rectangle(on, reach)
+    patch = (slice(MOST_STEPS - PATCH_STEPS, MOST_STEPS + PATCH_STEPS + 1),) * 2
+    over = _over_itself(points, normals, on, spacing, THINNED)
+    over[patch] = _over_itself(points[patch], normals[patch], on[patch], spacing, 1)
+    _check_overlap(over, reach)
+    box = _rectangle(on & ~over, reach)
     chart = Chart(
         low=(-box.centre[0] * spacing[0], -box.centre[1] * spacing[1]),
         spacing=spacing,
@@ -154,6 +160,56 @@ def _apart(points: np.ndarray, spacing: float) -> np.ndarray:
     return both
 
 
+def _over_itself(
+    points: np.ndarray, normals: np.ndarray, on: np.ndarray, spacing: tuple[float, float], stride: int
+) -> np.ndarray:
+    """Whether nodes (i, j) lie on others no farther from the middle, as of a sheet wound more than once round a shaft.
+
+    Of `stride` nodes in a row one is looked at, and stands for those towards the middle.
+    """
+    half = [n // 2 // stride for n in on.shape]
+    rows, columns = (n // 2 + stride * np.arange(-k, k + 1) for n, k in zip(on.shape, half, strict=True))
+    i, j = (
+        a.ravel() for a in np.meshgrid(np.arange(len(rows)) - half[0], np.arange(len(columns)) - half[1], indexing="ij")
+    )
+    thin, way = points[np.ix_(rows, columns)], np.stack([i, j], axis=-1) * stride * np.array(spacing)
+    inner = thin[i - np.sign(i) + half[0], j - np.sign(j) + half[1]]
+    point, normal, there = (
+        thin.reshape(-1, 3),
+        normals[np.ix_(rows, columns)].reshape(-1, 3),
+        on[np.ix_(rows, columns)].ravel(),
+    )
+    cell, outward = stride * float(np.hypot(*spacing)), np.maximum(abs(i), abs(j))
+    over = np.zeros(len(point), bool)
+    for k in np.flatnonzero(there):
+        off = point - point[k]
+        meets = there & (outward <= outward[k]) & (np.linalg.norm(way - way[k], axis=1) > OVERLAP * cell)
+        meets &= (np.linalg.norm(off, axis=1) < cell) & (normal @ normal[k] > 0)
+        over[k] = (off[meets] @ (point[k] - inner[k]) < 0).any()  # beside those ahead it only ends
+    outer = [
+        np.clip(np.sign(away) * -(-abs(away) // stride) + k, 0, 2 * k)
+        for n, k in zip(on.shape, half, strict=True)
+        for away in [np.arange(n) - n // 2]
+    ]
+    spread: np.ndarray = over.reshape(len(rows), len(columns))[np.ix_(*outer)]
+    return spread
+
+
+def _check_overlap(over: np.ndarray, reach: Reach) -> None:
+    """A patch must not lie over itself.
+
+    Raises:
+        InputError: it does.
+    """
+    most = _largest(~over, reach)
+    if most[0] < 2 * reach.half[0]:
+        raise InputError(
+            f"target.patch: {2 * reach.half[0]:.4g} mm × {2 * reach.half[1]:.4g} mm around its place would lie over "
+            f"itself, since target.geometry.faces close on themselves there; {most[0]:.3g} mm × {most[1]:.3g} mm would "
+            "fit. Make the patch smaller."
+        )
+
+
 def _rectangle(on: np.ndarray, reach: Reach) -> _Box:
     """The patch grown as far as a whole row or column of nodes (i, j) is on the faces.
 
@@ -172,14 +228,14 @@ def _rectangle(on: np.ndarray, reach: Reach) -> _Box:
             f"the smooth part of target.geometry.faces, where {most[0]:.3g} mm × {most[1]:.3g} mm would fit. Make the "
             "patch smaller, move it, or name the neighbouring faces too."
         )
-    while high[1] < 2 * MOST_STEPS and whole((low[0], high[0]), (high[1] + 1, high[1] + 1)):
-        high[1] += 1
-    while low[1] > 0 and whole((low[0], high[0]), (low[1] - 1, low[1] - 1)):
-        low[1] -= 1
-    while high[0] < 2 * MOST_STEPS and whole((high[0] + 1, high[0] + 1), (low[1], high[1])):
-        high[0] += 1
-    while low[0] > 0 and whole((low[0] - 1, low[0] - 1), (low[1], high[1])):
-        low[0] -= 1
+    grown = True
+    while grown:  # in turn, so that there are nodes beyond the patch on every side
+        grown = False
+        for axis, bounds, step in ((1, high, 1), (1, low, -1), (0, high, 1), (0, low, -1)):
+            ahead, box = bounds[axis] + step, [(low[0], high[0]), (low[1], high[1])]
+            box[axis] = (ahead, ahead)
+            if 0 <= ahead <= 2 * MOST_STEPS and whole(*box):
+                bounds[axis], grown = ahead, True
     return _Box(slice(low[0], high[0] + 1), slice(low[1], high[1] + 1), (MOST_STEPS - low[0], MOST_STEPS - low[1]))
 
 

@@ -56,9 +56,10 @@ def read(part: dict[str, Any], wish: dict[str, Any]) -> dict[str, Any]:
             chosen = blade_root(gmsh, {name: value * MM for name, value in part.items()})
         faces = Faces(gmsh, chosen)
         half = tuple(value * MM / 2 for value in wish["size"])
-        reach = Reach((half[0], half[1]), wish["depth"] * MM, wish["shot"] * MM / 2)
+        small, large = (diameter * MM for diameter in wish["shots"])
+        reach = Reach((half[0], half[1]), wish["depth"] * MM, large / 2)
         chart = march(faces, np.array(wish["at"]) * MM, reach)
-        triangles = facets(gmsh, faces, wish["facet_size"] * MM, wish["shot"] * MM, wish["thrown"])
+        triangles = facets(gmsh, faces, wish["facet_size"] * MM, small, wish["thrown"])
     return {
         "low": np.array(chart.low) / MM,
         "spacing": np.array(chart.spacing) / MM,

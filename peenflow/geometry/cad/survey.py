@@ -54,7 +54,7 @@ class Wish:
     at: tuple[float, float, float]  # near the patch's centre, in the part's frame
     size: tuple[float, float]  # of the patch along axes 1 and 2
     depth: float  # of the patch
-    shot: float  # diameter, which hollows must take
+    shots: tuple[float, float]  # diameters: of the smallest, to which facets are held, and the largest, for hollows
     facet_size: float  # of the facets' edges
     thrown: bool  # DEM throws shots at the facets
 
@@ -80,7 +80,7 @@ def _survey(part: StepFile | BladeRoot, wish: Wish, content: str) -> CadSurface:
         with np.load(answer) as found:
             low, high = found["low"].tolist(), found["spacing"].tolist()
             chart = Chart((low[0], low[1]), (high[0], high[1]), found["points"], found["normals"])
-            return CadSurface(chart, found["triangles"], reach=wish.shot / 2)
+            return CadSurface(chart, found["triangles"], reach=wish.shots[1] / 2)
 
 
 def _digest(path: Path) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from peenflow.dem.engine import Nozzle
 from peenflow.dem.liggghts import deck
 from peenflow.dem.liggghts.engine import run_all
 from peenflow.dem.liggghts.process import require_tools
@@ -76,6 +77,31 @@ def test_a_run_that_is_not_whole_is_told_and_the_next_one_finishes(
     assert undisturbed is not None
     np.testing.assert_array_equal(kept.contacts.force, undisturbed.contacts.force)
     np.testing.assert_array_equal(kept.contacts.velocity, undisturbed.contacts.velocity)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("rm spins.dump", "spins.dump cannot be read"),
+        ("truncate -s -100 spins.dump", "spins.dump (is cut|ends before)"),
+        ("sed -i 's/^1 [-0-9].*//' spins.dump", "spins.dump has a damaged row"),
+    ],
+    ids=["no dump", "cut dump", "lost rows"],
+)
+def test_a_dump_of_spins_that_is_not_whole_is_told_and_the_next_run_finishes(
+    plate_stream, program, tmp_path: Path, text: str, said: str
+):
+    oblique = Nozzle((-3e-3, 0.0, 2e-3), (0.6, 0.0, -0.8), 0.5e-3, 50.0, 0.0, 40000.0, 0.0)
+    shard = shard_of(plate_stream(nozzles=(oblique,), spin=True), tmp_path / "shard")
+    path = program(f'#!/bin/sh\n{REAL} "$@" || exit\n{text}\n')
+    with pytest.raises(RunError, match=said) as told:
+        run_all([shard], lambda _: None)
+    assert "\n" not in str(told.value)
+    assert shard.finished() is None
+    path.unlink()
+    run_all([shard], lambda _: None)
+    assert shard.finished() is not None
+    assert not list(shard.directory.glob("*.dump"))
 
 
 def test_a_liggghts_that_may_not_be_run_is_as_good_as_none(program, monkeypatch: pytest.MonkeyPatch):

@@ -7,11 +7,13 @@ its depth and the rebound.
 import dataclasses
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 
 from peenflow.calibrate import stage as calibrate
+from peenflow.calibrate.kept import Kept
 from peenflow.calibrate.shoot import calibrate as shoot
 from peenflow.case.directory import read_case
 from peenflow.fe import stage as solve
@@ -56,7 +58,8 @@ def hit(*settings: str) -> Result:
     """One hit with no effect but what the settings switch on; equal inputs are computed once."""
     off = [f"effects.{name}=off" for name in ("thermal_softening", "contact_friction", "kinematic_hardening")]
     inputs = calibrate.inputs(resolve(*read_case(CASES / "single-shot", [*COARSE, *off, *settings])), Upstream())
-    found = shoot(inputs, Silent())
+    with TemporaryDirectory() as folder:
+        found = shoot(inputs, Kept(Path(folder), ""), Silent())
     dent = found.hits[0].dent_depth
     return Result(found.depth, found.mean_stress[:, :2].mean(axis=1), dent, found.hits[0].cor)
 

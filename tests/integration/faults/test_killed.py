@@ -69,6 +69,24 @@ def test_killed_at_five_random_moments_over_all_stages(seed: int, tmp_path: Path
     survive(tmp_path, cache, undisturbed, [(stage, draw.random()) for stage in stages])
 
 
+def test_killed_between_hits_a_calibration_goes_on_with_the_next(tmp_path: Path, cache: Path, undisturbed: Path):
+    tiny_case.forget_calibrations(cache)
+    with tiny_case.started(tmp_path, cache, "--until", "calibrate") as process:
+        deadline = time.monotonic() + LONGEST
+        while not (tmp_path / "calibrate" / "hit-2.h5").exists():
+            assert time.monotonic() < deadline
+            assert process.poll() is None
+            time.sleep(0.01)
+        process.kill()
+        process.communicate()
+    assert not (tmp_path / "calibration.h5").exists()
+    again = tiny_case.run(tmp_path, cache)
+    assert again.returncode == 0, again.stderr
+    assert "of 6 hits are finished from before" in again.stderr
+    assert tiny_case.differences(tmp_path, undisturbed) == []
+    assert not (tmp_path / "calibrate").exists()
+
+
 def test_half_written_files_are_no_results(thrown: Path, cache: Path, undisturbed: Path):
     """What a process leaves that was killed between writing and renaming."""
     for name in (".contacts.h5.4711.part", "fe/.deck.h5.4711.part", "report/.index.html.4711.part"):

@@ -5,9 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
+from peenflow.case.directory import read_case
 from peenflow.errors import InputError
 from peenflow.geometry.cad import BladeRoot, StepFile, Wish, survey
 from peenflow.geometry.gmsh_session import gmsh_model
+from peenflow.surfaces import of
 
 SHOT = 0.3556e-3
 R = 3e-3
@@ -30,6 +32,10 @@ def parts(tmp_path_factory):
         gmsh.model.occ.addSphere(0, 0, 0, 2)
         gmsh.model.occ.synchronize()
         gmsh.write(str(folder / "ball.step"))
+    with gmsh_model("shaft") as gmsh:
+        gmsh.model.occ.addCylinder(0, 0, 0, 0, 0, 8, 3)
+        gmsh.model.occ.synchronize()
+        gmsh.write(str(folder / "shaft.step"))
     with gmsh_model("shell") as gmsh:
         gmsh.model.occ.addRectangle(0, 0, 0, 10, 10)
         gmsh.model.occ.synchronize()
@@ -57,8 +63,8 @@ def fillet_face(path):
 
 
 MIDDLE = R - R / np.sqrt(2)  # x and y of the rounded edge's middle
-ROUNDED = Wish((MIDDLE, MIDDLE, 5e-3), (2e-3, 2e-3), 0.5e-3, SHOT, 1.6 * SHOT, thrown=True)
-BORE = Wish((3e-3, 6e-3, 5e-3), (2e-3, 2e-3), 0.5e-3, SHOT, 1.6 * SHOT, thrown=True)
+ROUNDED = Wish((MIDDLE, MIDDLE, 5e-3), (2e-3, 2e-3), 0.5e-3, (SHOT, SHOT), 1.6 * SHOT, thrown=True)
+BORE = Wish((3e-3, 6e-3, 5e-3), (2e-3, 2e-3), 0.5e-3, (SHOT, SHOT), 1.6 * SHOT, thrown=True)
 
 
 def bulge_of(points, x, y):
@@ -119,7 +125,7 @@ def test_a_chart_goes_on_over_a_tangent_seam(parts):
 def test_on_a_ball_axis_1_is_x_and_geodesics_are_great_circles(parts):
     path = parts / "ball.step"
     at = 2e-3 * np.array([0, -np.sin(0.5), np.cos(0.5)])
-    wish = Wish(tuple(at), (1e-3, 1e-3), 0.4e-3, SHOT, 1.6 * SHOT, thrown=False)
+    wish = Wish(tuple(at), (1e-3, 1e-3), 0.4e-3, (SHOT, SHOT), 1.6 * SHOT, thrown=False)
     found = survey(StepFile(path, faces_of(path, "Sphere")), wish)
     assert np.allclose(found.placement(np.zeros(2)).rotation[:, 0], [1, 0, 0], atol=1e-9)
     uv = np.random.default_rng(2).uniform(-0.5e-3, 0.5e-3, (100, 2))
@@ -131,7 +137,7 @@ def test_on_a_ball_axis_1_is_x_and_geodesics_are_great_circles(parts):
 def test_a_blade_root_has_its_fillets_where_they_belong():
     root = BladeRoot(radius=R, thickness=2e-3, height=9e-3, length=12e-3, platform=20e-3)
     across, up = 1e-3 + R - R / np.sqrt(2), R - R / np.sqrt(2)
-    found = survey(root, Wish((6e-3, across, up), (2e-3, 2e-3), 0.5e-3, SHOT, 1.6 * SHOT, thrown=True))
+    found = survey(root, Wish((6e-3, across, up), (2e-3, 2e-3), 0.5e-3, (SHOT, SHOT), 1.6 * SHOT, thrown=True))
     axes = np.array([[1, 0, 0], [0, np.sqrt(0.5), -np.sqrt(0.5)], [0, np.sqrt(0.5), np.sqrt(0.5)]])
     assert np.allclose(found.placement(np.zeros(2)).rotation.T, axes, atol=1e-9)
     corners = found.triangles.reshape(-1, 3)
@@ -162,7 +168,8 @@ def test_a_bad_file_is_wrong_input(parts, name, faces, message):
         ({"at": (5e-3, -2e-3, 5e-3)}, r"lies .* mm off the faces"),
         ({"size": (2e-3, 9e-3)}, r"reaches beyond the smooth part .* mm would fit"),
         ({"depth": 2.9e-3}, r"rounded with 3 mm, too tight for layers down to 2\.9 mm"),
-        ({"shot": 8e-3, "facet_size": 12.8e-3}, "facets"),
+        ({"shots": (8e-3, 8e-3), "facet_size": 12.8e-3}, "facets"),
+        ({"shots": (SHOT / 8, SHOT), "facet_size": 3 * SHOT}, r"for shots of 0\.04445 mm lie up to"),
     ],
 )
 def test_what_the_faces_cannot_bear_is_wrong_input(parts, changes, message):
@@ -171,8 +178,60 @@ def test_what_the_faces_cannot_bear_is_wrong_input(parts, changes, message):
         survey(StepFile(path, (fillet_face(path),)), dataclasses.replace(ROUNDED, **changes))
 
 
+SHAFT = Wish((R, 0, 4e-3), (2e-3, 2e-3), 0.5e-3, (SHOT, SHOT), 1.6 * SHOT, thrown=False)
+
+
+@pytest.mark.parametrize("around", [19e-3, 20e-3])
+def test_a_patch_that_lies_over_itself_is_wrong_input(parts, around):
+    """The shaft's circumference is 18.85 mm."""
+    path, wish = parts / "shaft.step", dataclasses.replace(SHAFT, size=(2e-3, around))
+    with pytest.raises(InputError, match=r"2 mm × \d+ mm around its place would lie over itself"):
+        survey(StepFile(path, faces_of(path, "Cylinder")), wish)
+
+
+@pytest.mark.parametrize("around", [3e-3, 18.5e-3])
+def test_a_chart_goes_round_a_shaft_once_at_most(parts, around):
+    path, wish = parts / "shaft.step", dataclasses.replace(SHAFT, size=(2e-3, around))
+    chart = survey(StepFile(path, faces_of(path, "Cylinder")), wish).chart
+    assert around / 2 <= chart.high[1] < np.pi * R + chart.spacing[1]
+    turn = np.array([np.cos(1.0), np.sin(1.0)]) * R
+    assert abs(chart.foot(np.array([[*turn, 4e-3]]))[0, 1]) == pytest.approx(R, rel=1e-3)
+
+
 def test_shots_that_do_not_fit_into_a_hollow_are_wrong_input(parts):
     path = parts / "block.step"
     bore = tuple(tag for tag in faces_of(path, "Cylinder") if tag != fillet_face(path))
     with pytest.raises(InputError, match=r"hollow with 3 mm, into which shots of 7 mm do not fit"):
-        survey(StepFile(path, bore), dataclasses.replace(BORE, shot=7e-3, thrown=False))
+        survey(StepFile(path, bore), dataclasses.replace(BORE, shots=(SHOT, 7e-3), thrown=False))
+
+
+CASE = """\
+[shot]
+diameter = "0.72 mm"
+[target]
+material = "inconel718"
+geometry = {{ kind = "step", file = "block.step", faces = [{face}] }}
+patch = {{ length = "2 mm", width = "2 mm", at = ["0.8787 mm", "0.8787 mm", "5 mm"] }}
+[[nozzle]]
+position = ["-20 mm", "-20 mm", "5 mm"]
+direction = [1, 1, 0]
+diameter = "4 mm"
+speed = "60 m/s"
+rate = "20000 1/s"
+[exposure]
+duration = "2 ms"
+[accuracy]
+preset = "fine"
+facet_size = "1.6 mm"
+"""
+SPREAD = 'shot.size_spread={ kind = "normal", sigma = "0.05 mm" }'
+
+
+def test_where_sizes_scatter_the_faces_are_asked_to_take_the_largest_shot(parts):
+    """Layers 3.2 diameters deep: 2.3 mm of the mean shot's, 2.76 mm of the largest's, where 2.4 mm are to be had."""
+    (parts / "case.toml").write_text(CASE.format(face=fillet_face(parts / "block.step")))
+    assert of(*read_case(parts)).reach == pytest.approx(0.36e-3)
+    with pytest.raises(InputError, match=r"too tight for layers down to 2\.7"):
+        of(*read_case(parts, [SPREAD]))
+    found = of(*read_case(parts, [SPREAD, "accuracy.preset=draft"]))
+    assert found.reach == pytest.approx(0.5 * (0.72e-3 + 2.857e-3 * 0.05), rel=1e-3)

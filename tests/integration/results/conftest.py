@@ -223,6 +223,8 @@ def make_scene(case, surface):
         speed=62.5,
         dent_radius=61e-6,
         contact_time=0.45e-6,
+        plastic_radius=1.4e-4,
+        normal_speed=62.5,
     )
 
 

@@ -1,5 +1,6 @@
 import csv
 import dataclasses
+import html
 import json
 import re
 from html.parser import HTMLParser
@@ -8,6 +9,7 @@ import meshio
 import numpy as np
 import pytest
 
+from peenflow.case.model import BoltHoleGeometry, Deflector, PatchSize
 from peenflow.errors import InputError
 from peenflow.progress import Silent
 from peenflow.records.upstream import Upstream
@@ -57,7 +59,13 @@ def test_a_run_from_nozzle_to_stress_is_reported_whole(hole_run, stage_costs, tm
     figures, page = run(hole_run, tmp_path, stage_costs)
     assert set(figures) == {
         *("single_shot", "hits", "dem", "impacts", "fe", "residual", "residual_axis", "coverage", "roughness"),
+        "warnings",
     }
+    (partial,) = figures["warnings"]
+    assert partial.startswith(f"Only {100 * figures['coverage']['fraction']:.3g} % of the patch is covered")
+    assert "1 thing gives reason for doubt" in page.text
+    assert 0 < figures["residual"]["min_standard_error_Pa"] < 0.2 * abs(figures["residual"]["min_Pa"])
+    assert "How far the mesh is off is not known" in page.text
     assert figures == stage.load(tmp_path)
     assert figures["dem"]["wall_impacts"] == 900 + 212
     assert figures["dem"]["deflector_contacts"] == 10
@@ -92,6 +100,102 @@ def test_tables_and_volume_agree_with_the_figures(hole_run, tmp_path):
     np.testing.assert_allclose(mesh.cell_data["stress"][0][:, 2], mesh.cell_data["S11"][0], atol=1)
 
 
+class Heard(Silent):
+    """Progress that keeps what it was told."""
+
+    def __init__(self):
+        self.notes = []
+
+    def note(self, message):
+        self.notes.append(message)
+
+
+def test_what_makes_one_doubt_the_run_stands_on_the_page_in_the_summary_and_in_the_log(hole_run, tmp_path):
+    scene, upstream = hole_run
+    own = "Hourglass control holds 19 % of the internal energy. Lower accuracy.mesh_size."
+    shallow = np.where(upstream.translation.deck.patch.depth > 0.4e-3, -2e9, -1e8)[:, None]
+    response = dataclasses.replace(
+        upstream.response, notes=(own,), side_reaction=0.11, stress=shallow * np.array([1, 1, 1, 0, 0, 0])
+    )
+    heard = Heard()
+    inputs = stage.inputs(scene, dataclasses.replace(upstream, response=response))
+    figures = stage.run(inputs, tmp_path, heard)
+    page = (tmp_path / "report" / "index.html").read_text()
+    told = figures["warnings"]
+    assert [text.split()[0] for text in told] == ["Hourglass", "The", "Area", "Under", "Only"]
+    assert told[0] == own
+    quality = html.unescape(page[page.index("How good the solution is") :])
+    assert all(f'<p class="warning">{text}</p>' in quality for text in told)
+    assert "5 things give reason for doubt" in Page(page).text
+    assert heard.notes == told[1:]  # the solver has told its own
+
+
+def test_a_coarse_unit_cell_is_doubted_on_its_page(single_run, tmp_path):
+    scene, upstream = single_run
+    calibration = dataclasses.replace(upstream.calibration, hourglass_energy_ratio=0.19)
+    figures, page = run((scene, dataclasses.replace(upstream, calibration=calibration)), tmp_path)
+    assert "Lower accuracy.calibration_mesh_size" in figures["warnings"][0]
+    assert figures["warnings"][0] in page.text
+    assert "1 thing gives reason for doubt" in page.text
+
+
+def with_rod(scene, travel):
+    section = {"tip": "incline", "angle": "45 deg", "diameter": "3 mm", "travel": travel | {"speed": "2 m/s"}}
+    case = scene.case.model_copy(update={"deflector": Deflector.model_validate(section)})
+    return dataclasses.replace(scene, case=case)
+
+
+def test_where_a_rod_travels_full_coverage_is_told_in_passes(hole_run, tmp_path):
+    scene, upstream = hole_run
+    steady, page = run((with_rod(scene, {"from": "12 mm", "to": "12 mm"}), upstream), tmp_path / "steady")
+    assert steady["coverage"]["full_at_passes"] is None
+    assert "passes" not in page.text
+    found, page = run((with_rod(scene, {"from": "19 mm", "to": "7 mm"}), upstream), tmp_path / "gone")
+    cover = found["coverage"]
+    assert cover["full_at_s"] is None
+    assert cover["full_at_passes"] == pytest.approx(steady["coverage"]["full_at_s"] / 5e-3)
+    assert f"{cover['full_at_passes']:.4g} passes" in page.text
+    assert "A pass is 5 ms of shooting" in page.text
+
+
+def test_a_patch_chosen_by_its_own_hits_says_so_and_where_it_is(hole_run, tmp_path):
+    scene, upstream = hole_run
+
+    def at(place):
+        update = {"geometry": BoltHoleGeometry(kind="bolt-hole", diameter="7.5 mm", length="25 mm")}
+        update |= {"patch": PatchSize(length="1 mm", arc="1 mm", at=place)}
+        target = scene.case.target.model_copy(update=update)
+        return dataclasses.replace(scene, case=scene.case.model_copy(update={"target": target}))
+
+    _, page = run((at("densest"), upstream), tmp_path / "densest")
+    assert "this stream's own hits are densest" in page.text
+    assert 'patch.at = ["12.5 mm", "0 deg"]' in page.text
+    _, page = run((at(("12.5 mm", "0 deg")), upstream), tmp_path / "stated")
+    assert "densest" not in page.text
+
+
+def test_an_engine_without_a_time_step_has_no_line_for_it(hole_run, tmp_path):
+    scene, upstream = hole_run
+    _, page = run(hole_run, tmp_path / "with")
+    assert "time step 37.5 ns" in stream_text(page)
+    contacts = dataclasses.replace(upstream.contacts, time_step=0.0, interval=0.0)
+    figures, page = run((scene, dataclasses.replace(upstream, contacts=contacts)), tmp_path / "without")
+    assert "time step" not in stream_text(page)
+    assert figures["dem"]["time_step_s"] is None
+
+
+def stream_text(page):
+    return page.text[page.text.index("The stream") : page.text.index("On the part")]
+
+
+def test_the_sampling_length_of_roughness_is_told(hole_run, tmp_path):
+    figures, page = run(hole_run, tmp_path)
+    rough = figures["roughness"]
+    assert set(rough) == {"Ra_m", "Rz_m", "Sa_m", "sampling_length_m", "sampling_lengths"}
+    assert rough["Rz_m"] >= 2 * rough["Ra_m"] > 0
+    assert f"1 sampling length of {rough['sampling_length_m'] * 1e3:.3f} mm" in page.text
+
+
 def test_a_run_from_given_impacts_has_no_stream(hole_run, tmp_path):
     scene, upstream = hole_run
     case = scene.case.model_copy(update={"exposure": None})
@@ -100,6 +204,8 @@ def test_a_run_from_given_impacts_has_no_stream(hole_run, tmp_path):
     figures, page = run((scene, upstream), tmp_path)
     assert not {"dem", "single_shot", "hits"} & set(figures)
     assert figures["coverage"]["full_at_s"] is None
+    assert figures["residual"]["min_standard_error_Pa"] is None
+    assert "standard error" not in page.text
     assert "The stream" not in page.text
     assert set(page.images) == {"profile.svg", "surface.png", "impacts.svg", "dents.svg", "energy.svg"}
 
@@ -123,7 +229,7 @@ def test_a_patch_that_nothing_hit_is_reported_without_a_hardest_impact(hole_run,
 
 def test_a_calibration_alone_is_reported(single_run, tmp_path):
     figures, page = run(single_run, tmp_path)
-    assert set(figures) == {"single_shot", "hits", "fe", "residual", "residual_axis"}
+    assert set(figures) == {"single_shot", "hits", "fe", "residual", "residual_axis", "warnings"}
     assert figures["fe"]["elements"] == 64000
     assert [hit["hit"] for hit in figures["hits"]] == [1, 2, 3]
     assert set(read_csv(tmp_path / "history.csv")["hit"]) == {1, 2, 3}

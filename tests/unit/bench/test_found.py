@@ -4,7 +4,7 @@ import json
 
 from peenflow.bench.found import Found, Stream, Updates, document
 
-ROW = Updates(32768, 2, "float64", "gmsh", 0.2, 2e7, 1.9e7, 300.0, 0.31, 350.0)
+ROW = Updates(32768, 2, "float64", "gmsh", 0.2, 2e7, 1.9e7, 300.0, 0.31, 350.0, 0.98)
 
 
 def test_the_document_has_the_stated_keys():

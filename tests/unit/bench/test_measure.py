@@ -24,6 +24,7 @@ def test_a_tiny_cube_gives_a_row_for_every_share():
     assert [row.yielding for row in rows] == pytest.approx([0.0, 0.2, 1.0], abs=1 / 64)
     for row in rows:
         assert row.updates_per_s >= row.median_updates_per_s > 0
+        assert 0 < row.cpu_share < 1.1
         assert row.share_of_limit == pytest.approx(row.updates_per_s * row.bytes_per_update / 1e10)
 
 

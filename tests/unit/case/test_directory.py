@@ -260,6 +260,23 @@ def test_settings_with_and_without_quotes(hole: Path, quoted: str) -> None:
     assert read_case(hole, [quoted])[0].shot.diameter == pytest.approx(4.3e-4)
 
 
+def test_a_setting_without_a_value_takes_the_files_own_away(plate: Path) -> None:
+    text = (plate / "case.toml").read_text() + '[accuracy]\ndepth = "0.5 mm"\ntarget = "5 %"\n'
+    (plate / "case.toml").write_text(text)
+    assert read_case(plate)[0].accuracy.depth == pytest.approx(5e-4)
+    without, _ = read_case(plate, ["accuracy.depth="])
+    assert without.accuracy.depth is None
+    assert without.accuracy.target == pytest.approx(0.05)
+    last, _ = read_case(plate, ["accuracy.depth=0.4 mm", "accuracy.depth="])
+    assert last.accuracy.depth is None
+    again, _ = read_case(
+        plate, ["accuracy.depth=", "accuracy.depth=0.4 mm", "accuracy.target=", "accuracy.preset=fine"]
+    )
+    assert (again.accuracy.depth, again.accuracy.preset) == (pytest.approx(4e-4), "fine")
+    kept, _ = read_case(plate, ["accuracy.preset=draft", "accuracy.preset="])
+    assert kept.accuracy.target == pytest.approx(0.05)
+
+
 def test_settings_reach_into_tables_arrays_and_new_sections(hole: Path) -> None:
     settings = ["nozzle.0.speed=50 m/s", "deflector.travel.speed=1 m/s", "accuracy.preset=draft", "exposure.seed=7"]
     case, _ = read_case(hole, [*settings, "target.johnson_cook.C=0.0"])
@@ -274,6 +291,29 @@ def test_the_boundary_of_a_patch_through_the_plate_is_named_with_its_line(plate:
     text = PLATE.replace('"5 mm" }', '"0.2 mm" }') + '[accuracy]\nboundary = "far-field"\n'
     message = _complaint(_written(plate, text))
     assert 'case.toml line 16, accuracy.boundary: "far-field" asks for a body behind the patch' in message
+
+
+OWN_SET = (
+    "target.material=my-steel",
+    "target.constants.density=7900 kg/m^3",
+    "target.constants.young=200 GPa",
+    "target.constants.poisson=0.3",
+    "target.johnson_cook.A=500 MPa",
+    "target.johnson_cook.B=300 MPa",
+    "target.johnson_cook.n=0.3",
+    "target.johnson_cook.C=0.01",
+)
+
+
+def test_a_hot_part_needs_constants_of_softening(plate: Path) -> None:
+    hot = "target.temperature=600 degC"
+    message = _complaint(plate, *OWN_SET, hot)
+    assert "target.temperature=600 degC: the part is 873.15 K hot" in message
+    assert "give target.johnson_cook.m, target.johnson_cook.melt, target.constants.heat_capacity, or remove" in message
+    some = ("target.johnson_cook.m=1.0", "target.johnson_cook.melt=1500 degC")
+    assert "give target.constants.heat_capacity, or remove" in _complaint(plate, *OWN_SET, *some, hot)
+    read_case(plate, [*OWN_SET, *some, hot, "target.constants.heat_capacity=480 J/(kg K)"])
+    read_case(plate, [*OWN_SET, "target.temperature=20 degC"])
 
 
 def test_one_shot_is_enough(hole: Path) -> None:
@@ -306,6 +346,9 @@ def test_a_setting_replaces_the_key_that_excludes_it(plate: Path) -> None:
         ("shot.diametre=1 mm", "--set shot.diametre=1 mm: unknown key; did you mean diameter?"),
         ("shot.diameter=9", "--set shot.diameter=9: 9 has no unit"),
         ("nozzle=3", "--set nozzle=3: must be an array, not 3"),
+        ("shot.diameter=", "give exactly one of diameter and size; neither is given"),
+        ("exposure.duration=", "--set exposure.duration=: this key is missing"),
+        ("accuracy.mesh_sise=", "--set accuracy.mesh_sise=: there is no accuracy.mesh_sise to take away"),
     ],
 )
 def test_a_wrong_setting_says_that_it_is_one(hole: Path, setting: str, expected: str) -> None:

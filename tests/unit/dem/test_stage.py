@@ -161,6 +161,22 @@ def test_merged_shards_are_ordered_and_their_shots_unique():
     np.testing.assert_array_equal(merged.facet, [0, 0, 1, 1])
     assert merged.shots == 5
     assert merged.surfaces == ("target",)
+    assert merged.spin is None
+
+
+def test_spins_are_merged_with_their_rows():
+    first, second = contacts(3, [1, 4], [0, 2]), contacts(2, [2, 3], [0, 1])
+    spins = np.arange(12.0).reshape(4, 3)
+    merged = stage.merge(
+        [dataclasses.replace(first, spin=spins[:2]), dataclasses.replace(second, spin=spins[2:])],
+    )
+    np.testing.assert_array_equal(merged.spin, spins[[0, 2, 3, 1]])
+
+
+@pytest.mark.parametrize("state", ["on", "off"])
+def test_contacts_tell_spins_where_the_effect_is_on(state):
+    found = stage.inputs(scene(effects={"shot_spin": state}), upstream())
+    assert found.stream.spin == (state == "on")
 
 
 def test_missing_liggghts_names_the_package(hole_stream, tmp_path, monkeypatch):

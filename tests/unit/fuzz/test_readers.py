@@ -14,9 +14,10 @@ import pytest
 from decks import inconel, rollers
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
-from liggghts_dump import CONTACT, SNAPSHOT, WHOLE, snapshot
+from liggghts_dump import CONTACT, SNAPSHOT, WHOLE, snapshot, spins
 
 from peenflow.case.impacts_csv import read_impacts
+from peenflow.case.model import ImpactsFile
 from peenflow.dem.liggghts import dump, log
 from peenflow.dem.liggghts.shard import shot_numbers
 from peenflow.errors import PeenflowError, RunError, is_control
@@ -67,7 +68,7 @@ TABLE = "\n".join([HEADER, ROW, "1e-6,-1e-4,0,0,1,2,-60", ""])
 
 
 def impacts(path: Path) -> str:
-    return refused(lambda: read_impacts(path, Plate(1e-3)))
+    return refused(lambda: read_impacts(path, ImpactsFile(file=path.name), Plate(1e-3), 3e-4))
 
 
 @FUZZ
@@ -97,8 +98,11 @@ def test_any_row_of_impacts_is_taken_or_named(tmp_path: Path, cells: list[Any], 
         (bytes(range(256)), "cannot be read"),
         (HEADER.encode() + b"\n" + b"1" * 200_000, "cannot be read: field larger than field limit"),
         (HEADER.encode() + b'\n"' + b"1\n" * 100_000, "cannot be read"),
-        (HEADER.encode() + b"\n" + b"1e308,0,0,0,0,0,-50", "line 2: a number is above 1000"),
-        (HEADER.encode() + b"\n" + b"0,0,0,0,0,0,-501", "line 2: the shot is faster than 500 m/s"),
+        (HEADER.encode() + b"\n" + b"1e308,0,0,0,0,0,-50", "line 2, column 't_s': a number is beyond ±1000 s"),
+        (
+            HEADER.encode() + b"\n" + b"0,0,0,0,0,0,-501",
+            "line 2, columns 'vx_m_s', 'vy_m_s', 'vz_m_s': the shot is faster than 500 m/s",
+        ),
         (HEADER.encode() + b"\n" + b"1," * 100_000, "line 2, has 100001 cells"),
     ],
 )
@@ -134,6 +138,27 @@ def test_a_damaged_dump(tmp_path: Path, content: bytes):
             assert part.point.shape == (len(part.step), 3)
             assert np.isfinite(part.force).all()
             assert (part.number >= 0).all()
+
+
+TURNED = spins({0: ["4 0 0 1 0 0 1e-9 \n"], 2: ["3 1e5 -2e4 7 1e-5 2e-5 -3e-5 \n"]}, 4, 2)
+
+
+@FUZZ
+@given(content=damaged(TURNED.encode()))
+def test_a_damaged_dump_of_spins(tmp_path: Path, content: bytes):
+    (tmp_path / "contacts.dump").write_text(WHOLE)
+    (tmp_path / "spins.dump").write_bytes(content)
+
+    def both() -> list[dump.Rows]:
+        return list(dump.blocks(tmp_path / "contacts.dump", 4, 2, spins=tmp_path / "spins.dump"))
+
+    if content != TURNED.encode() and not (said := refused(both)):
+        for part in both():
+            assert part.turning is not None
+            assert part.turning.spin.shape == part.turning.torque.shape == (len(part.step), 3)
+            assert np.isfinite(part.turning.spin).all()
+    elif content != TURNED.encode():
+        assert "spins.dump" in said
 
 
 @FUZZ
@@ -392,7 +417,17 @@ def bomb(path: Path) -> None:
     ("make", "imports", "read"),
     [
         (zeros, "from peenflow.case.directory import read_case", "read_case(Path(sys.argv[1]).with_name('x.toml'))"),
-        (zeros, "from peenflow.case.impacts_csv import read_impacts", "read_impacts(Path(sys.argv[1]))"),
+        (
+            zeros,
+            "from peenflow.case.impacts_csv import read_impacts; from peenflow.case.model import ImpactsFile",
+            "read_impacts(Path(sys.argv[1]), ImpactsFile(file='x'), None, 1.0)",
+        ),
+        (
+            zeros,
+            "from peenflow.case.contacts_csv import read_contacts; from peenflow.case.model import ContactsFile",
+            "read_contacts(Path(sys.argv[1]), ContactsFile(file='x', columns=dict.fromkeys("
+            "('t', 'shot', 'x', 'y', 'z', 'vx', 'vy', 'vz'), 'a')))",
+        ),
         (zeros, "from peenflow.dem.liggghts import dump", "list(dump.blocks(Path(sys.argv[1]), 4, 2))"),
         (
             zeros,
@@ -405,7 +440,7 @@ def bomb(path: Path) -> None:
             "hdf5.load(Contacts, Path(sys.argv[1]))",
         ),
     ],
-    ids=["case", "impacts", "dump", "record", "packed record"],
+    ids=["case", "impacts", "contacts", "dump", "record", "packed record"],
 )
 def test_memory_is_bounded(tmp_path: Path, make: Callable[[Path], None], imports: str, read: str):
     path = tmp_path / "x.toml"

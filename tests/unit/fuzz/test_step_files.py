@@ -19,7 +19,7 @@ import pytest
 from peenflow.errors import InputError, is_control
 from peenflow.geometry.cad import StepFile, Wish, survey
 
-WISH = Wish((0.0, 5e-3, 5e-3), (1e-3, 1e-3), 0.5e-3, 0.3556e-3, facet_size=1e-3, thrown=False)
+WISH = Wish((0.0, 5e-3, 5e-3), (1e-3, 1e-3), 0.5e-3, (0.3556e-3, 0.3556e-3), facet_size=1e-3, thrown=False)
 MODULE = sys.modules[survey.__module__]
 HEADER = b"ISO-10303-21;\nHEADER;\n"
 NUMBER, REFERENCE = re.compile(rb"-?\d+\.\d*(?:E[+-]?\d+)?"), re.compile(rb"#\d+")

@@ -1,4 +1,5 @@
 import csv
+import dataclasses
 import gzip
 from pathlib import Path
 
@@ -80,6 +81,26 @@ def test_a_second_facet_at_the_same_time_adds_its_force_and_is_counted():
 def test_velocity_comes_from_the_facet_that_pushes_harder_at_first_touch():
     assert joined([(1, 7, 1, 0, 10, -49), (1, 7, 1, 0, 20, -50)]).velocity[0, 2] == -50
     assert joined([(1, 7, 1, 0, 20, -50), (1, 7, 1, 0, 10, -49)]).velocity[0, 2] == -50
+
+
+def test_spin_is_that_of_the_first_row_and_of_the_facet_that_pushes_harder():
+    rows = [
+        (1, 7, 1, 0, 10, -50),
+        (2, 7, 1, 0, 40, -20),
+        (5, 8, 1, 0, 10, -40),
+        (5, 8, 1, 0, 30, -41),
+        (3, 9, 1, 0, 1, -2),
+    ]
+    spin = 1e3 * np.arange(15.0).reshape(5, 3)
+    found = from_contacts(dataclasses.replace(contacts(rows), spin=spin), Plate(5e-3), Rules(5.0, 0.0))
+    assert found.shot.tolist() == [7, 8]  # number 9 is too soft
+    assert found.spin.tolist() == [spin[0].tolist(), spin[3].tolist()]
+
+
+def test_contacts_that_tell_no_spin_make_impacts_without():
+    assert joined([(1, 7, 1, 0, 10, -50)]).spin is None
+    table = ImpactTable(np.zeros(1), np.zeros((1, 3)), np.array([[0.0, 0.0, -50.0]]), None)
+    assert from_table(table, Plate(5e-3), 2e-4, Rules(5.0, 0.0)).spin is None
 
 
 def test_tensile_samples_are_no_force():

@@ -43,6 +43,8 @@ def scene(surface, geometry, patch, directory=Path("."), friction=False, **table
         speed=62.5,
         dent_radius=6e-5,
         contact_time=4.5e-7,
+        plastic_radius=1.4e-4,
+        normal_speed=62.5,
     )
 
 

@@ -74,14 +74,16 @@ def test_impacts_on_the_patch_take_turns_and_end_the_run(tmp_path):
     assert deck.controls.end_time == pytest.approx(2 * turn)
     assert deck.spheres.velocity[:, 2].tolist() == [-50, -40, -60]
     assert deck.pressures is None
+    assert deck.group_starts == pytest.approx([0, turn])
 
 
 def test_ungrouped_impacts_keep_their_times_from_the_first(tmp_path):
     plate = Plate(1e-3)
     inputs = case(plate, table(plate, UV[1:3], SPEEDS[1:3]), group_distance=None)
-    impacts = stage.run(inputs, tmp_path, Silent()).impacts
+    impacts, deck = vars(stage.run(inputs, tmp_path, Silent())).values()
     assert impacts.t_start == pytest.approx([0, 1e-6])
     assert impacts.group.tolist() == [0, 1]
+    assert deck.group_starts is None
 
 
 def test_the_run_waits_for_a_slow_sphere_that_falls_into_an_earlier_dent(tmp_path):
@@ -125,6 +127,7 @@ def test_the_record_comes_back_from_disk(tmp_path):
     assert kept.deck.controls == made.deck.controls
     assert kept.deck.material == made.deck.material
     assert np.array_equal(kept.deck.spheres.velocity, made.deck.spheres.velocity)
+    assert np.array_equal(kept.deck.group_starts, made.deck.group_starts)
     assert np.array_equal(kept.impacts.t_start, made.impacts.t_start, equal_nan=True)
     assert [r.name for r in kept.deck.rollers] == [r.name for r in made.deck.rollers]
     assert kept.deck.rollers[0].mirror is True

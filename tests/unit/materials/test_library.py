@@ -3,7 +3,7 @@ import pytest
 
 from peenflow.case.model import Constants, JohnsonCookConstants, KinematicHardeningConstants
 from peenflow.errors import InputError
-from peenflow.materials.library import material, table
+from peenflow.materials.library import NoSofteningError, material, table
 
 SETS = {  # A, B [MPa], n, C, m, melt [K], density, E [GPa]
     "inconel718": (1241, 622, 0.6522, 0.0134, 1.3, 1570, 8200, 211),
@@ -56,6 +56,8 @@ def test_a_set_of_the_cases_own_needs_no_row() -> None:
     plastic = JohnsonCookConstants.model_validate({"A": "500 MPa", "B": "300 MPa", "n": 0.3})
     found = material("my-steel", elastic, plastic)
     assert (found.name, found.rate, found.thermal) == ("my-steel", None, None)
+    with pytest.raises(NoSofteningError, match="the part is 400 K hot"):
+        material("my-steel", elastic, plastic, initial=400.0)
 
 
 def test_an_unknown_name_offers_the_nearest() -> None:

@@ -47,6 +47,8 @@ def scene(surface, directory=Path("."), geometry=PLATE, patch=None, **tables):
         speed=62.5,
         dent_radius=6e-5,
         contact_time=4.5e-7,
+        plastic_radius=1.4e-4,
+        normal_speed=62.5,
     )
 
 

@@ -77,7 +77,7 @@ def test_a_twisted_side_is_hollow_across(tmp_path):
     """Its principal curvatures are ±κ, so that elements get wider along one by 1 + κd at the depth d."""
     turned, length = np.radians(50), 4e-3
     z = 1e-3 * parts.twisted(tmp_path / "part.step", np.degrees(turned), length=1e3 * length)
-    wish = Wish((0.0, 0.0, z), (2e-3, 2e-3), 2e-3, 1.98e-3, facet_size=3e-3, thrown=False)
+    wish = Wish((0.0, 0.0, z), (2e-3, 2e-3), 2e-3, (1.98e-3, 1.98e-3), facet_size=3e-3, thrown=False)
     surface = survey(StepFile(tmp_path / "part.step", (1,)), wish)
     found = under_dents(inputs(surface, size=(2e-3, 2e-3), depth=2e-3, mesh_size=0.2e-3, fine_depth=1e-3))
     twist = 2 * np.tan(turned / 2) / length

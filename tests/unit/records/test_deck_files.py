@@ -42,6 +42,7 @@ DECK = Deck(
         np.array([[0, 0, -60.0]]),
         np.zeros(1),
         0.3,
+        np.array([[1e5, -2e4, 3.0]]),
     ),
     pressures=None,
 )
@@ -115,9 +116,34 @@ def test_a_missing_or_cut_deck_file_is_named(tmp_path, name):
         load_deck(tmp_path)
 
 
+def test_a_deck_whose_spheres_do_not_spin_comes_back_so(tmp_path):
+    save_deck(dataclasses.replace(DECK, spheres=dataclasses.replace(DECK.spheres, spin=None)), tmp_path)
+    assert load_deck(tmp_path).spheres.spin is None
+
+
+def test_a_spin_that_is_no_number_is_refused(tmp_path):
+    spheres = dataclasses.replace(DECK.spheres, spin=np.array([[0.0, np.inf, 0.0]]))
+    save_deck(dataclasses.replace(DECK, spheres=spheres), tmp_path)
+    with pytest.raises(InputError, match="a sphere's spin is not a finite number"):
+        load_deck(tmp_path)
+
+
 def test_a_deck_with_a_poisoned_mesh_is_refused(tmp_path):
     nodes = DECK.patch.nodes.copy()
     nodes[3, 1] = np.nan
     save_deck(dataclasses.replace(DECK, patch=dataclasses.replace(DECK.patch, nodes=nodes)), tmp_path)
     with pytest.raises(InputError, match="coordinate is not a finite number"):
+        load_deck(tmp_path)
+
+
+def test_a_deck_without_groups_is_taken_as_one_whose_impacts_keep_their_times(tmp_path):
+    """Such as an older version has written."""
+    save_deck(DECK, tmp_path)
+    assert load_deck(tmp_path).group_starts is None
+
+
+@pytest.mark.parametrize("starts", [[0.0, 1e-6, 1e-6], [1e-6, 0.0], [0.0, np.nan]])
+def test_groups_that_do_not_rise_are_refused(tmp_path, starts):
+    save_deck(dataclasses.replace(DECK, group_starts=np.array(starts)), tmp_path)
+    with pytest.raises(InputError, match=r"deck\.h5: the groups' starts do not rise"):
         load_deck(tmp_path)

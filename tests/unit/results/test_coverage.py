@@ -1,15 +1,16 @@
 import numpy as np
 import pytest
 
-from peenflow.results.coverage import DentLaw, coverage, covered
+from peenflow.results.coverage import DentLaw, Shooting, coverage, covered
 
 LOW, HIGH = np.array([-0.5e-3, -0.5e-3]), np.array([0.5e-3, 0.5e-3])
+STEADY = Shooting(duration=1.0, passes=2, travels=False)
 
 
 def test_85_dents_on_a_square_millimetre_cover_half_of_it():
     rng = np.random.default_rng(5)
     radii = np.full(85, 0.05098e-3)
-    trials = [coverage(rng.uniform(LOW, HIGH, (85, 2)), radii, LOW, HIGH, 2.0) for _ in range(20)]
+    trials = [coverage(rng.uniform(LOW, HIGH, (85, 2)), radii, LOW, HIGH, STEADY) for _ in range(20)]
     for found in trials:
         assert found.avrami == pytest.approx(0.5, abs=1e-3)
         assert found.full_at == pytest.approx(2 * 3.912 / np.log(2), rel=2e-3)
@@ -28,8 +29,21 @@ def test_dents_on_one_point_count_once():
 
 def test_without_a_rate_or_dents_there_is_no_time_to_full_coverage():
     assert coverage(np.zeros((1, 2)), np.array([1e-4]), LOW, HIGH, None).full_at is None
-    nothing = coverage(np.empty((0, 2)), np.empty(0), LOW, HIGH, 1.0)
+    nothing = coverage(np.empty((0, 2)), np.empty(0), LOW, HIGH, STEADY)
     assert (nothing.fraction, nothing.avrami, nothing.full_at) == (0, 0, None)
+
+
+@pytest.mark.parametrize("passes", [1, 4])
+def test_a_rod_that_goes_past_the_patch_covers_it_by_passes_and_never_by_time(passes):
+    points, radii = np.array([[0, 0], [0.3e-3, 0]]), np.full(2, 0.1e-3)
+    found = coverage(points, radii, LOW, HIGH, Shooting(5e-3, passes, travels=True))
+    assert found.full_at is None
+    # each pass leaves its share of the dents: 98 % is at a thickness of 3.912
+    assert found.full_at_passes == pytest.approx(3.912 * passes / (2 * np.pi * 0.01), rel=1e-3)
+
+
+def test_a_steady_stream_has_no_passes():
+    assert coverage(np.zeros((1, 2)), np.array([1e-4]), LOW, HIGH, STEADY).full_at_passes is None
 
 
 def test_dents_follow_the_table_within_it_and_the_root_of_the_speed_outside():

@@ -40,10 +40,20 @@ def test_the_page_has_every_point_and_what_follows(tool, read):
     page = tool.page(read)
     assert "| ★ | mesh_size | 0.02 mm | 6 | 1 | 1 |" in page
     assert "| least RCS | 1 | -1600 MPa | 0.78 |" in page
-    assert "- for 3 % on the residual stress profile: relaxation 0.01" in page
+    assert "- for 5 % on the residual stress profile: relaxation 0.01" in page
     assert "Its own error of the profile, extrapolated: 2 %." in page
     assert "| `plate` | calibrate | 10 | 12 | 1.20 |" in page
     assert "Median of the ratios: 1.20." in page
+
+
+def test_the_presets_stand_beside_what_the_reference_itself_errs(tool, read):
+    base = read["single-shot"]["rows"][0]
+    read["single-shot"]["rows"].append(base | {"knob": "preset", "value": "draft", "error_profile": 0.1, "cpu_s": 2.0})
+    page = tool.page(read)
+    assert "| draft | A single shot | 10 | 2 | 2 |" in page
+    assert "| standard | A single shot | 2.5 | 2 | 6 |" in page
+    read["single-shot"]["reference_error_profile"] = None
+    assert "| draft | A single shot | 10 | – | 2 |" in tool.page(read)
 
 
 def test_every_part_is_a_case_there_is(tool):
@@ -63,9 +73,12 @@ def test_what_is_shipped_is_in_proportion_to_the_dent(tool, read, found):
 def test_scatter_over_seeds_is_told_by_area(tool):
     least = {1: -1.0e9, 2: -1.2e9}
     rows = [
-        [{"impacts": seed, "least": least[seed], "surface": -5e8, "cpu_s": 40.0} for _ in tool.seeds.AREAS]
+        [
+            {"impacts": seed, "least": least[seed], "surface": -5e8, "told": [1e8, None], "cpu_s": 40.0}
+            for _ in tool.seeds.AREAS
+        ]
         for seed in (1, 2)
     ]
     tool.seeds.BUILD.mkdir()
     (tool.seeds.BUILD / "seeds.json").write_text(json.dumps(rows))
-    assert "| 0.4 | 1.5 | -1100 | 13 | -500 | 0 |" in tool.seeds.section()
+    assert "| 0.4 | 1.5 | -1100 | 13 | 9.1 | -500 | 0 | – |" in tool.seeds.section()

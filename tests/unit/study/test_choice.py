@@ -16,10 +16,10 @@ from peenflow.study.identity import case_hash
 from peenflow.study.relative import absolute, relative
 
 CASES = Path(__file__).parents[3] / "cases"
-ROWS = [  # mesh, error, wall [s], of them in the solver, on one thread
-    ("0.02 mm", 0.08, 5.0, 4.0),
-    ("0.01 mm", 0.025, 20.0, 19.0),
-    ("0.006 mm", 0.008, 90.0, 89.0),
+ROWS = [  # mesh, error, wall [s], all but 1 s of it in the solver, on one thread
+    ("0.02 mm", 0.08, 5.0),
+    ("0.01 mm", 0.025, 20.0),
+    ("0.006 mm", 0.008, 90.0),
 ]
 
 
@@ -29,15 +29,17 @@ def _known_speed(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_NUM_THREADS", "1")
 
 
+def row(knob, error, wall, **accuracy):
+    told = {"knob": knob, "kind": "base" if knob == "base" else "knob", "accuracy": accuracy, "error_profile": error}
+    return told | {"wall_s": wall, "solver_wall_s": wall - 1.0, "threads": 1}
+
+
 def leave_study(directory, **changes):
     case, _ = read_case(directory)
-    rows = [
-        {"kind": "knob", "accuracy": {"mesh_size": mesh, "relaxation": 0.004}, "error_profile": error}
-        | {"wall_s": wall, "solver_wall_s": solver, "threads": 1}
-        for mesh, error, wall, solver in ROWS
-    ]
+    rows = [row("mesh_size", error, wall, mesh_size=mesh, relaxation=0.004) for mesh, error, wall in ROWS]
     found = {"case_hash": case_hash(case, directory, accuracy=False), "rows": rows}
-    found |= {"machine": {"updates_per_s": {"1": machine.ELSEWHERE.updates_per_s[1]}}} | changes
+    found |= {"machine": {"updates_per_s": {"1": machine.ELSEWHERE.updates_per_s[1]}}, "reference_error_profile": None}
+    found |= changes
     (directory / "study").mkdir(exist_ok=True)
     (directory / "study" / "study.json").write_text(json.dumps(found))
 
@@ -78,6 +80,25 @@ def test_knobs_that_the_case_states_stand(studied):
     found = scene(studied, "accuracy.target=3 %", "accuracy.relaxation=0.1")
     assert found.knobs.relaxation == 0.1
     assert found.knobs.calibration_mesh_size == pytest.approx(1e-5)
+
+
+def test_what_the_case_states_a_study_that_varied_it_cannot_change(studied):
+    """The stated mesh would stand, and another one's error be promised for it."""
+    with pytest.raises(InputError, match=r"accuracy.target = 3 %.*mesh_size 0.02 mm"):
+        scene(studied, "accuracy.target=3 %", "accuracy.mesh_size=0.02 mm")
+
+
+def test_nor_is_a_preset_taken_whose_mesh_the_case_overrules(studied):
+    leave_study(studied, rows=[row("base", 0.08, 5.0, mesh_size="0.02 mm"), row("preset", 0.02, 60.0, preset="fine")])
+    assert "chosen preset fine" in scene(studied, "accuracy.target=3 %").chosen
+    assert "chosen preset fine" in scene(studied, "accuracy.target=3 %", "accuracy.hourglass=0.06").chosen
+    with pytest.raises(InputError, match=r"accuracy.target = 3 %"):
+        scene(studied, "accuracy.target=3 %", "accuracy.mesh_size=0.02 mm")
+
+
+def test_the_same_holds_of_shipped_studies():
+    chosen = scene(CASES / "patch", "accuracy.budget=10 h", "accuracy.mesh_size=0.02 mm").chosen
+    assert "mesh_size 0.02 mm" in chosen
 
 
 def test_a_study_of_another_case_does_not_count(studied):

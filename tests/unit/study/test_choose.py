@@ -4,7 +4,7 @@ from peenflow.errors import InputError
 from peenflow.study.choose import SPARE, Candidate, by_budget, by_target
 
 COARSE, MIDDLE, FINE, SLOW = (
-    Candidate({"mesh_size": f"{size} mm"}, error, wall, "a study")
+    Candidate({"mesh_size": f"{size} mm"}, error, None, wall, "a study")
     for size, error, wall in ((0.02, 0.08, 4.0), (0.012, 0.028, 15.0), (0.008, 0.01, 60.0), (0.011, 0.028, 20.0))
 )
 ALL = [SLOW, FINE, COARSE, MIDDLE]
@@ -27,3 +27,11 @@ def test_what_no_setting_keeps_is_refused_with_the_best_there_is():
         by_target(ALL, 0.005)
     with pytest.raises(InputError, match=r"accuracy.budget = 3 s.*mesh_size 0.02 mm.*Give 5 s or more"):
         by_budget(ALL, 3.0)
+
+
+def test_the_references_own_error_is_part_of_a_settings():
+    """A mesh like the reference's would else be called exact."""
+    alike = Candidate({}, 0.0001, 0.044, 60.0, "a study")
+    with pytest.raises(InputError, match=r"error 4.4 % \(0.01 % from the study's reference, 4.4 % its own\)"):
+        by_target([alike], 0.04)
+    assert by_target([alike], 0.05) is alike

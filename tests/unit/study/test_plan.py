@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from peenflow.case.accuracy import PRESETS, SET_BY_PRESET
 from peenflow.case.directory import read_case
+from peenflow.case.model import Accuracy
 from peenflow.errors import InputError
 from peenflow.resolve import resolve
 from peenflow.study.knobs import KNOBS, Sweep, rounded
@@ -118,6 +120,38 @@ def test_on_cad_faces_facets_are_only_made_finer_and_not_below_the_shot():
     assert knob.sweep(coarse) == Sweep(("0.8534 mm", "0.569 mm"), "0.569 mm")
 
 
+def test_a_preset_is_studied_as_it_is_without_the_cases_own_values_of_what_it_sets():
+    """Else the case's mesh would stand under every preset, and all would come to the same."""
+    found = planned("patch", ("preset",), "accuracy.mesh_size=0.02 mm")
+    presets = [point for point in found.points if point.knob == "preset"]
+    assert [point.value for point in presets] == ["draft", "standard", "fine"]
+    for point in presets:
+        own = {key: text for key, text in point.settings.items() if not text}
+        assert own == {"accuracy.mesh_size": "", "accuracy.depth": ""}
+    path, directory = CASES / "patch", CASES / "patch"
+    sizes = [resolve(read_case(path, point.overrides)[0], directory).knobs.mesh_size for point in presets]
+    assert sizes[0] / sizes[2] == pytest.approx(PRESETS["fine"].elements_per_dent / PRESETS["draft"].elements_per_dent)
+    assert planned("single-shot", ("preset",)).points[0].settings == {"accuracy.preset": "draft"}
+
+
+def test_a_preset_keeps_the_stream():
+    """Another time step of the DEM throws another one: chance, not accuracy."""
+    for point in planned("plate", ("preset",), "dem.engine=liggghts", "accuracy.dem_time_step=0.15").points:
+        assert point.settings["accuracy.dem_time_step"] == "0.15"
+    fine = planned("plate", ("preset",), "dem.engine=liggghts").points[-1]
+    assert fine.settings == {"accuracy.preset": "fine", "accuracy.dem_time_step": "0.2"}
+
+
+def test_what_presets_set_is_what_differs_between_them():
+    def knobs(preset):
+        given = dataclasses.asdict(resolve(*read_case(CASES / "plate", [f"accuracy.preset={preset}"])).knobs)
+        return {key: value for key, value in given.items() if key in Accuracy.model_fields}
+
+    draft, fine = knobs("draft"), knobs("fine")
+    different = {key for key in draft if draft[key] != fine[key]} - {"boundary"}  # an effect's, by the tolerance
+    assert different | {"time_step"} == set(SET_BY_PRESET)  # alike in all presets today
+
+
 def test_what_is_not_known_well_is_varied_only_when_asked_for():
     assert not [point for point in planned("single-shot").points if point.kind == "unsure"]
     found = planned("single-shot", ("material", "speed"))
@@ -125,6 +159,14 @@ def test_what_is_not_known_well_is_varied_only_when_asked_for():
     assert [point.settings for point in found.points if point.knob == "speed"] == [
         {"single_shot.speed": "59.375 m/s"},
         {"single_shot.speed": "65.625 m/s"},
+    ]
+
+
+def test_the_diameter_that_is_varied_is_the_one_the_case_states():
+    found = planned("bolt-hole", ("diameter",), 'shot.size_spread={ kind = "normal", sigma = "0.05 mm" }')
+    assert [point.settings for point in found.points] == [
+        {"shot.diameter": "0.344932 mm"},
+        {"shot.diameter": "0.366268 mm"},
     ]
 
 
@@ -152,8 +194,6 @@ def test_knobs_that_cannot_be_varied_are_refused(knobs, expected):
 
 
 def test_every_knob_is_a_key_of_accuracy():
-    from peenflow.case.model import Accuracy
-
     assert {knob.name for knob in KNOBS} <= set(Accuracy.model_fields)
 
 

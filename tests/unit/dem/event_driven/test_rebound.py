@@ -1,12 +1,16 @@
 """Conservation at every touch, the limits of sliding and sticking, and an experiment."""
 
 import csv
+import dataclasses
 import math
 
 import numpy as np
 import pytest
+import streams
 from references import REFERENCE
 
+from peenflow.dem.event_driven import setup
+from peenflow.dem.event_driven.hertz import hertz_table
 from peenflow.scene import ShotProperties
 
 FAST = {"restitution": 1.0, "friction": 0.0}
@@ -110,6 +114,39 @@ def test_spin_about_the_normal_does_nothing(box, play):
     v, spin = rebound(box, play, 0.0, (0.0, 0.0, 1e6))
     np.testing.assert_allclose(v, [0, 0, 0.57 * APPROACH], atol=1e-12)
     np.testing.assert_array_equal(spin, [0, 0, 1e6])
+
+
+def second_hit(box, play, hits, angle, e=0.57, friction=0.3):
+    """The record of a shot's hit on a ceiling, after one on the plate, `angle` from its normal [rad]."""
+    ceiling = streams.plate(10e-3)[:, ::-1] + [0.0, 0.0, 1e-3]
+    velocity = APPROACH * np.array([math.sin(angle), 0, -math.cos(angle)])
+    triangles = np.concatenate([streams.plate(10e-3), ceiling])
+    world = play(box(triangles=triangles, restitution=e, friction=friction), [[0, 0, 0.5e-3]], [velocity], 120e-6)
+    first, second = hits(world)[:2]
+    np.testing.assert_array_equal(first["spin"], 0.0)
+    assert second["normal"][2] == pytest.approx(-1.0)
+    return second
+
+
+def test_the_next_hit_tells_the_spin_of_a_shot_that_slid(box, play, hits):
+    """R ω = 5/2 μ(1+e) v_n."""
+    found = second_hit(box, play, hits, math.radians(75))
+    surface = 2.5 * 0.3 * 1.57 * APPROACH * math.cos(math.radians(75))
+    np.testing.assert_allclose(0.1778e-3 * found["spin"], [0, surface, 0], rtol=1e-12)
+
+
+def test_the_next_hit_tells_the_spin_of_a_shot_that_rolled(box, play, hits, monkeypatch):
+    """R ω = 5/7 v_t where no slip is left; as much more as the slip comes back, (1+β) 5/7."""
+    angle, along = math.radians(20), APPROACH * math.sin(math.radians(20))
+    stuck = second_hit(box, play, hits, angle, friction=5.0)
+    springy = 0.1778e-3 * stuck["spin"][1] / (5 / 7 * along)
+    assert springy > 1.05
+    assert stuck["velocity"][0] == pytest.approx(along * (1 - 2 / 7 * springy), rel=1e-12)
+    table = dataclasses.replace(hertz_table(1.0), tangential=np.zeros_like(hertz_table(1.0).tangential))
+    monkeypatch.setattr(setup, "hertz_table", lambda ratio: table)
+    rolled = second_hit(box, play, hits, angle, friction=5.0)
+    np.testing.assert_allclose(0.1778e-3 * rolled["spin"], [0, 5 / 7 * along, 0], rtol=1e-12)
+    assert rolled["velocity"][0] == pytest.approx(5 / 7 * along, rel=1e-12)
 
 
 def test_backspin_throws_the_shot_back(box, play):

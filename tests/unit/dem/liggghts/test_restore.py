@@ -11,7 +11,8 @@ import pytest
 
 from peenflow.dem.engine import Walls
 from peenflow.dem.liggghts import dump
-from peenflow.dem.liggghts.restore import Law, diameters, restore
+from peenflow.dem.liggghts.dump import Turning
+from peenflow.dem.liggghts.restore import Law, diameters, restore, spin_before
 from peenflow.scene import ShotProperties
 
 REFERENCE = Path(__file__).parents[3] / "reference"
@@ -30,7 +31,8 @@ def single(name, last_step):
 
 
 def selected(rows, which):
-    return dataclasses.replace(rows, **{f.name: getattr(rows, f.name)[which] for f in dataclasses.fields(rows)})
+    fields = [field.name for field in dataclasses.fields(rows) if field.name != "turning"]
+    return dataclasses.replace(rows, **{name: getattr(rows, name)[which] for name in fields})
 
 
 def test_constants_of_the_law():
@@ -137,3 +139,19 @@ def test_a_heavier_shot_is_slowed_less():
     slowed = velocity[:, 2] - rows.velocity[:, 2]
     np.testing.assert_allclose(slowed, -DT / 2 * force[:, 2] / both.mass, rtol=1e-9)
     assert abs(slowed[1]) < 0.5 * abs(slowed[0])
+
+
+@pytest.mark.parametrize("first", [0, 1, 2])
+def test_the_spin_before_is_that_without_the_torque_of_the_steps_in_contact(first):
+    """Of a shot that slides: its torque is in proportion to the normal force. Also where first rows were not dumped."""
+    rows = selected(single("20pct", 30), slice(0, first + 1))
+    force, _ = restore(rows, law(0.57), DT, 1)
+    torque = 0.3 * SHOT.diameter / 2 * force[:, 2:] * [0.0, 1.0, 0.0]
+    inertia = 0.4 * SHOT.mass * (SHOT.diameter / 2) ** 2
+    gained = DT / inertia * (torque[:-1].sum(axis=0) + 0.5 * torque[-1])
+    before = np.array([7e4, -8e4, 9e4])
+    found = spin_before(
+        selected(rows, slice(first, None)), Turning(before[None] + gained, torque[-1:]), law(0.57), DT, first + 1
+    )
+    assert gained[1] > 1e3
+    np.testing.assert_allclose(found[0], before, atol=1e-4 * gained[1])
