@@ -48,7 +48,8 @@ stability-reference: setup
 study: setup
 	$(BIN)/python docs/scripts/study.py $(PARTS)
 
-# the paper's tables and figures, docs/reproduction.md: under 40 minutes on two cores; PARTS chooses here too
+# the paper's tables and figures, docs/reproduction.md: under 40 minutes on two cores, two parts side by side with one
+# solver thread each; PARTS chooses here too, one part alone takes all threads
 reproduction: setup
 	$(BIN)/python docs/scripts/reproduction/make.py $(PARTS)
 

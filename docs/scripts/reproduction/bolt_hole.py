@@ -1,38 +1,31 @@
 """Figures 16, 17, 20 and 21: deflector peening of a bolt hole, the paper's case study."""
 
 import json
-import sys
-import tempfile
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
+import figure_20
 import hole
 import numpy as np
-import peened
 import reading
+from hard import HARD_ARE, hard
 from lone_impact import APART, PAPER_FACTOR, Alone, load_factors, pick
 from matplotlib.figure import Figure
-from parts import ROOT, Bench, Found, Part, Row, Table, summary
+from meetings import collided_before
+from parts import Bench, Found, Part, Row, Table, summary
 from scene_picture import Around, scene_picture
 
 from peenflow.dem import bodies
 from peenflow.dem.engine import Stream
-from peenflow.loads.placement import HARD
 from peenflow.records.calibration import Calibration
-from peenflow.results import drawing, patch_plots, profiles
+from peenflow.results import drawing, patch_plots
 from peenflow.results.coverage import FULL, calibrated_dents, covered
 from peenflow.results.evaluation import Peening
-from peenflow.results.profiles import Profile, Residual
 from peenflow.results.units import display
-from peenflow.study.errors import profile_error
-
-sys.path.insert(0, str(ROOT / "tests" / "support"))
-from dem_statistics import by_liggghts  # LIGGGHTS with a dump of who meets whom
 
 NEAR = 0.05  # of the paper's factor: as good as it
-ALONG = 2  # coordinate of the hole's axis
-LOSSES = {  # what a shot loses at the rod decides how hard it hits the wall
+LOSSES = {  # what a shot loses at the rod decides how fast it meets the wall
     "calibrated": ("dem.restitution=calibrated",),
     "frictionless": ("dem.friction=0",),
 }
@@ -46,21 +39,19 @@ def measure(bench: Bench) -> Found:
     peening, figures = reading.peening(hole.scene(), results), summary(results)
     calibration, stream = reading.record(results, "calibrate"), reading.stream(hole.scene(), results)
     alone = pick(peening, calibration)
-    at_nozzle, alike = (single(bench, results, speed) for speed in (hole.scene().speed, alone.speed))
-    patch = peening.patch
-    under = profiles.weighted(patch, peening.response, profiles.below(patch, alone.uv))
-    drawing.save(partial(stresses, under, alone, at_nozzle, alike), bench.pictures / "hole-stress.svg")
+    under = figure_20.measure(bench, results, peening, alone)
+    drawing.save(partial(figure_20.picture, under, alone), bench.pictures / "hole-stress.svg")
     drawing.save(partial(impacts_drawn, peening, alone), bench.pictures / "hole-impacts.svg")
     undrawn = scene_picture(peening, around(stream), bench.pictures / "hole.png")
     if undrawn is not None:
         raise SystemExit(f"hole.png: {undrawn}")
-    met, lost = collided(stream), losses(bench, results, calibration)
+    met, lost = collided_before(stream), losses(bench, results, calibration)
     return Found(
         rows=[
             *thrown_rows(figures, stream),
             *wall_rows(figures, met),
             *coverage_rows(peening, calibration, figures),
-            *stress_rows(under, alone, at_nozzle, alike),
+            *figure_20.rows(under, alone),
             frictionless(lost),
         ],
         pictures={
@@ -68,8 +59,9 @@ def measure(bench: Bench) -> Found:
             "start and all impacts; the orange line bounds the patch of finite elements. Below: the patch's mesh.",
             "hole-impacts.svg": "Figure 21. Impacts on the unrolled hole; the ring is around the one of Figure 20.",
             "hole-stress.svg": f"Figure 20. Residual stress under the single impact {alone.uv[0] * MM:+.2f} mm along "
-            f"and {alone.uv[1] * MM:+.2f} mm around the hole from the patch's centre, and under single shots onto a "
-            "plane.",
+            f"and {alone.uv[1] * MM:+.2f} mm around the hole from the patch's centre, on a patch of its own of "
+            f"{figure_20.SIZES[0] * MM:g} mm with elements of {figure_20.FINE * MM:g} mm, and under single "
+            "shots onto a plane.",
         },
         tables=[lost],
         told=told(alone),
@@ -85,30 +77,6 @@ def told(alone: Alone) -> str:
         "yield stress it does not state, so that only the shape can be compared with it; the single shots beside it "
         "stand for what its section 4.1 calls the observed phenomenon."
     )
-
-
-def single(bench: Bench, results: Path, speed: float) -> Profile:
-    """Under one shot straight onto a plane: effects and element size as on the hole."""
-    knobs, states = hole.scene().knobs, summary(results)["effects"]
-    shared = ("rate_hardening", "thermal_softening", "kinematic_hardening", "contact_friction", "far_field")
-    changes: Mapping[str, object] = {
-        "title": f"One shot at {speed:.2f} m/s",
-        "single_shot": {"speed": f"{speed} m/s", "hits": 1, "angle": "90 deg"},
-        "accuracy": {"preset": "standard", "mesh_size": f"{knobs.mesh_size * MM} mm"},
-        "effects": {name: states[name]["state"].split()[-1] for name in shared},
-    }
-    name = f"single-{speed:.1f}"
-    table = np.genfromtxt(
-        bench.run(bench.case(name, "single-shot", changes), name) / "profile_axis.csv", delimiter=",", names=True
-    )
-    stress = np.stack([table["s11_Pa"], table["s22_Pa"], table["s33_Pa"]], axis=-1)
-    return Profile(table["depth_m"], stress, table["peeq"])
-
-
-def collided(stream: Stream) -> float:
-    """Share of the shots on the wall that met another shot before, in a second run with a dump of who meets whom."""
-    with tempfile.TemporaryDirectory(prefix="peenflow-") as folder:
-        return by_liggghts(stream, Path(folder), ALONG).collided_before
 
 
 def thrown_rows(figures: Mapping[str, dict[str, float]], stream: Stream) -> list[Row]:
@@ -175,7 +143,7 @@ def wall_rows(figures: Mapping[str, dict[str, float]], met: float) -> list[Row]:
             f"{100 * effects['shot_collisions'].estimate:.0f} % beforehand (effect `shot_collisions`)",
         ),
         Row(
-            "impacts hard enough to count",
+            "impacts fast enough to count",
             None,
             kept["count"],
             "",
@@ -191,7 +159,7 @@ def coverage_rows(peening: Peening, calibration: Calibration, figures: Mapping[s
     radii = calibrated_dents(calibration)(impacts.normal_speed, impacts.diameter)
     high = np.array([surface.length, np.pi * surface.radius])
     wall = covered(surface.unroll(impacts.point), radii, np.array([0.0, -high[1]]), high)
-    patch, exposure = figures["coverage"], peening.exposure
+    patch = figures["coverage"]
     return [
         Row("coverage of the whole wall", "very low", 100 * wall, "%", "an incline peens one side of the hole"),
         Row(
@@ -205,56 +173,12 @@ def coverage_rows(peening: Peening, calibration: Calibration, figures: Mapping[s
         Row(
             "rounds to full coverage of the patch",
             "the DEM repeated more times, the FE run once",
-            patch["full_at_s"] / exposure,
+            patch["full_at_passes"],
             "",
-            f"to {100 * FULL:g} % by Avrami's law at this rate; `exposure.shards` merges as many independent rounds "
+            f"to {100 * FULL:g} % by Avrami's law; `exposure.shards` merges as many independent rounds "
             "before the one FE run",
         ),
     ]
-
-
-def stress_rows(under: Profile, alone: Alone, at_nozzle: Profile, alike: Profile) -> list[Row]:
-    """Figure 20 in numbers."""
-    found, same, full = (profiles.residual(profile) for profile in (under, alike, at_nozzle))
-    off = 100 * profile_error(peened.curve(under), peened.curve(alike))
-    return [
-        Row(
-            "load factor under Figure 20",
-            PAPER_FACTOR,
-            alone.factor,
-            "",
-            f"{alone.speed:.1f} m/s along the normal, {alone.angle:.0f}° from the surface, the next impact "
-            f"{alone.apart * MM:.2f} mm away; what shots lose at the rod sets it, see the table",
-        ),
-        Row(
-            "Figure 20: largest compression, (S11+S22)/2",
-            "below the surface",
-            MPA * found.minimum,
-            "MPa",
-            f"{UM * found.depth_of_minimum:.0f} µm below the surface; a single shot at the same normal speed leaves "
-            f"{MPA * same.minimum:.0f} MPa at {UM * same.depth_of_minimum:.0f} µm, one at the nozzle's speed "
-            f"{MPA * full.minimum:.0f} MPa at {UM * full.depth_of_minimum:.0f} µm",
-        ),
-        Row(
-            "Figure 20: compression ends at",
-            "tension below",
-            "nowhere" if found.zero_crossing is None else UM * found.zero_crossing,
-            "µm",
-            f"{crossing(same)} under the single shot at the same normal speed, {crossing(full)} at the nozzle's",
-        ),
-        Row(
-            "Figure 20: difference from the single shot at that speed",
-            '"very similar to the observed phenomenon"',
-            off,
-            "% rms of its least stress",
-            "curvature, the shot's oblique path with friction, the neighbours and where the shot meets the mesh",
-        ),
-    ]
-
-
-def crossing(of: Residual) -> str:
-    """Where compression ends, in words."""
-    return "nowhere" if of.zero_crossing is None else f"at {UM * of.zero_crossing:.0f} µm"
 
 
 def impacts_drawn(peening: Peening, alone: Alone) -> Figure:
@@ -281,30 +205,8 @@ def frictionless(lost: Table) -> Row:
     )
 
 
-def stresses(under: Profile, alone: Alone, at_nozzle: Profile, alike: Profile) -> Figure:
-    """Figure 20; a mark is an element."""
-    figure = drawing.canvas(9.2, 4.2)
-    components, means = figure.subplots(1, 2, sharey=True)
-    thick = {"color": drawing.BLUE, "lw": 3.2}
-    components.plot(UM * under.depth, MPA * under.in_plane, label="(S11+S22)/2", **thick)
-    for index, name, style, colour in ((0, "S11, axial", "--", drawing.ORANGE), (1, "S22, hoop", ":", drawing.INK)):
-        components.plot(UM * under.depth, MPA * under.stress[:, index], style, color=colour, label=name)
-    label = f"hole, load factor {alone.factor:.2f}\n(paper: {PAPER_FACTOR:g})"
-    means.plot(UM * under.depth, MPA * under.in_plane, "o-", ms=5, label=label, **thick)
-    for profile, speed, style in ((alike, alone.speed, "o--"), (at_nozzle, hole.scene().speed, "o:")):
-        label = f"single shot, {speed:.1f} m/s"
-        means.plot(UM * profile.depth, MPA * profile.in_plane, style, ms=3, lw=1.2, color=drawing.INK, label=label)
-    for axes in (components, means):
-        axes.axhline(0, color=drawing.QUIET, lw=0.8)
-        axes.set(xlabel="depth below the original surface [µm]", xlim=(0, 400))
-        axes.legend(loc="lower right")
-    components.set(ylabel="residual stress [MPa]", title="under the lone impact on the hole")
-    means.set_title("beside single shots onto a plane")
-    return figure
-
-
 def losses(bench: Bench, results: Path, calibration: Calibration) -> Table:
-    """How hard shots hit the wall by what they lose at the rod."""
+    """How fast shots meet the wall by what they lose at the rod."""
     runs = [results]
     runs += [bench.run(hole.CASE, name, *hole.SETTINGS, *more, until="translate") for name, more in LOSSES.items()]
     lines = []
@@ -314,13 +216,13 @@ def losses(bench: Bench, results: Path, calibration: Calibration) -> Table:
         cor = given["restitution"]
         if cor == "calibrated":
             cor = float(np.mean([hit.cor for hit in calibration.hits]))
-        hard = impacts.normal_speed >= HARD * impacts.normal_speed.max()
-        factor = load_factors(impacts, calibration)[hard]
-        speed = float(np.median(impacts.normal_speed[hard]))
+        strong = hard(impacts.normal_speed)
+        factor = load_factors(impacts, calibration)[strong]
+        speed = float(np.median(impacts.normal_speed[strong]))
         lines.append([cor, given["friction"], speed, float(np.median(factor)), float(np.percentile(factor, 95))])
     head = ["CoR", "friction", "normal speed [m/s], median", "load factor, median", "load factor, 95 %"]
     return Table(
-        "Load factors of the hard impacts (above half of each run's fastest) by what shots lose at the rod; the paper "
+        f"Load factors of the hard impacts ({HARD_ARE}) by what shots lose at the rod; the paper "
         f"gives the first line's CoR but no friction, and a factor of {PAPER_FACTOR:g}",
         head,
         lines,
@@ -351,7 +253,10 @@ PART = Part(
     here="`cases/bolt-hole`, `peenflow run` with LIGGGHTS and the finite elements of its own; `[deflector]`, "
     '`[target] patch = { at = "densest" }`, `report/impacts.svg`',
     measure=measure,
-    elements="The hole's patch bears on all impacts: its elements are the preset's, and the cost of smaller ones grows "
-    "with the fourth power; single shots beside Figure 20 have the same.",
+    lasts=130,
+    elements="The hole's patch bears all impacts: its elements are the preset's, and the cost of smaller ones grows "
+    "with the fourth power. Figure 20 is of a patch around its impact with elements of "
+    f"{figure_20.FINE * MM:g} mm, as are the single shots beside it; small patches with the hole's show what they "
+    "change. Other unit cells give forces, dents and, where it is calibrated, restitution.",
     beside=(hole.FOLDER,),
 )

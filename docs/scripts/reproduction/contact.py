@@ -375,5 +375,6 @@ PART = Part(
     here="`cases/single-shot` (`peenflow.calibrate`: history.csv, pressure.csv, dent.csv); LIGGGHTS behind "
     "`peenflow.dem.liggghts` with `[dem] restitution`, `accuracy.contact_interval = 1`",
     measure=measure,
+    lasts=130,
     elements="Finer, for the pressure over the radius; DEM runs use nothing of their coarse unit cell.",
 )

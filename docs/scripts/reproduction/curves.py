@@ -143,4 +143,5 @@ PART = Part(
     here="`peenflow/materials/library.toml` and `shots.toml`, keys `[shot] material`, `[target] material` and "
     "`[target.johnson_cook]`; `peenflow.dent.flow_stress`, in the solver `peenflow.fe.johnson_cook`",
     measure=measure,
+    lasts=5,
 )

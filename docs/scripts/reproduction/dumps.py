@@ -11,11 +11,11 @@ from pathlib import Path
 import hole
 import numpy as np
 import reading
+from hard import HARD_ARE, hard
 from parts import Bench, Row, Table
 
 from peenflow.geometry import Plate
 from peenflow.loads.impacts import Rules, from_contacts
-from peenflow.loads.placement import HARD
 from peenflow.records.contacts import Contacts
 from peenflow.records.impacts import Impacts
 
@@ -36,7 +36,6 @@ class Thrown:
     wall: float  # s, of the stage
     cpu: float  # s, likewise
     contacts: Contacts
-    speed: float  # m/s, of the nozzle
 
 
 def throw_at_plate(bench: Bench, shards: int) -> Thrown:
@@ -63,8 +62,8 @@ def _watched(bench: Bench, case: Path, name: str, *given: str) -> Thrown:
         largest = max(size for seen in sizes for size in seen.values())
         noted.write_text(json.dumps([largest, max(sum(seen.values()) for seen in sizes)]), encoding="utf-8")
     largest, at_once = json.loads(noted.read_text(encoding="utf-8"))
-    cost, of = reading.cost(out, "dem"), reading.scene(case, *given)
-    return Thrown(out, largest, at_once, cost.wall_s, cost.cpu_s, reading.record(out, "dem"), of.speed)
+    cost = reading.cost(out, "dem")
+    return Thrown(out, largest, at_once, cost.wall_s, cost.cpu_s, reading.record(out, "dem"))
 
 
 @contextmanager
@@ -114,11 +113,11 @@ def split_rows(split: Mapping[int, Thrown]) -> list[Row]:
             f"two parts run side by side, each on a core: {parts.cpu:.1f} against {whole.cpu:.1f} CPU s",
         ),
         Row(
-            "hits on the plate above half the nozzle's speed, merged over whole",
+            "hard hits on the plate, merged over whole",
             "merged results files",
             len(merged) / len(one),
             "",
-            f"{len(merged)} and {len(one)} of as many shots, mean normal speed {merged.mean():.1f} and "
+            f"{HARD_ARE}: {len(merged)} and {len(one)} of as many shots, mean normal speed {merged.mean():.1f} and "
             f"{one.mean():.1f} m/s, {apart:.1f} standard errors apart, of other random numbers",
         ),
     ]
@@ -128,9 +127,9 @@ def split_table(split: Mapping[int, Thrown]) -> Table:
     """By number of parts."""
     lines = []
     for shards, run in split.items():
-        hard, rows = speeds(run), len(run.contacts.t)
+        found, rows = speeds(run), len(run.contacts.t)
         disk = (MB * run.largest, MB * run.at_once)
-        lines.append([shards, run.contacts.shots, rows, *disk, run.wall, run.cpu, len(hard), float(hard.mean())])
+        lines.append([shards, run.contacts.shots, rows, *disk, run.wall, run.cpu, len(found), float(found.mean())])
     head = [
         "parts",
         "shots",
@@ -146,10 +145,9 @@ def split_table(split: Mapping[int, Thrown]) -> Table:
 
 
 def speeds(run: Thrown) -> np.ndarray:
-    """Normal speeds (n,) [m/s] of the hits on the plate above half the nozzle's speed."""
+    """Normal speeds (n,) [m/s] of the hard hits on the plate."""
     normal = from_contacts(run.contacts, Plate(1.0), Rules(0.0, 0.0)).normal_speed
-    hard: np.ndarray = normal[normal >= HARD * run.speed]
-    return hard
+    return normal[hard(normal)]
 
 
 def interval_rows(sampled: Mapping[int, Thrown]) -> list[Row]:
@@ -191,7 +189,8 @@ def interval_table(sampled: Mapping[int, Thrown]) -> Table:
         speed, force = _changes(found, against, 4 * run.contacts.time_step)
         lines.append([interval, len(run.contacts.t), MB * run.largest, run.wall, len(found.t), speed, force])
     head = ["steps", "rows", "dump [MB]", "wall [s]", "impacts", "normal speed, median change [%]", "peak force [%]"]
-    return Table("The bolt hole's stream by steps between outputs; changes against an output every step", head, lines)
+    title = "The bolt hole's stream by steps between outputs; changes of hard hits against an output every step"
+    return Table(title, head, lines)
 
 
 def _impacts(run: Thrown) -> Impacts:
@@ -201,12 +200,9 @@ def _impacts(run: Thrown) -> Impacts:
 
 
 def _changes(found: Impacts, against: Impacts, near: float) -> tuple[float, float]:
-    """Median change [%] of normal speed, as a size, and of peak force of hits above half the nozzle's speed,
-    the same within `near` [s].
-    """
+    """Median change [%] of normal speed, as a size, and of peak force of hard hits, the same within `near` [s]."""
     pairs = []
-    hard = np.flatnonzero(against.normal_speed >= HARD * hole.scene().speed)
-    for row in hard.tolist():
+    for row in np.flatnonzero(hard(against.normal_speed)).tolist():
         same = np.flatnonzero((found.shot == against.shot[row]) & (np.abs(found.t - against.t[row]) < near))
         pairs += [(int(same[0]), row)] if same.size else []
     here, there = np.array(pairs).T

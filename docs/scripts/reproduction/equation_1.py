@@ -207,5 +207,6 @@ PART = Part(
     here="`peenflow.dem.engine.rayleigh_step`, `accuracy.dem_time_step`, `peenflow check`; facets in "
     "`peenflow.mesh.facets` (`accuracy.facet_size`)",
     measure=measure,
+    lasts=31,
     elements="Nothing of the unit cell is used here.",
 )

@@ -219,5 +219,6 @@ PART = Part(
     here="`accuracy.depth`, `accuracy.boundary` and the effect `far_field`: `peenflow.loads.deck`, "
     "`peenflow.fe.boundary`; for Abaqus `peenflow export` writes infinite elements (CIN3D8)",
     measure=measure,
+    lasts=259,
     elements=f"{len(BOUNDARIES)} bottoms at {len(DEPTHS)} depths, down to {DEEP:g} mm, are compared with one another.",
 )

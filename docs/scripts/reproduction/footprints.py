@@ -260,5 +260,6 @@ PART = Part(
     "`peenflow study --knobs load,pressure_shape` measures the shapes for "
     "any case with a part",
     measure=measure,
+    lasts=293,
     elements=f"Those of {COARSE} are for comparison; the unit cell is the preset's.",
 )

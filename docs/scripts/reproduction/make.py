@@ -2,7 +2,8 @@
 
     python docs/scripts/reproduction/make.py [PART …]
 
-measures the parts named (all, if none is) in build/reproduction and writes the page from all parts measured there.
+measures the parts named (all, if none is) in build/reproduction, several side by side, and writes the page from all
+parts measured there. A part that fails is missing on the page, and the command fails in the end.
 """
 
 import datetime
@@ -10,6 +11,7 @@ import json
 import math
 import os
 import re
+import signal
 import sys
 import time
 from collections import Counter
@@ -29,14 +31,17 @@ import pairs
 import resources
 import translation
 from parts import ROOT, Bench, Part, store
+from side_by_side import AT_ONCE, measure_all
 
 import peenflow
 from peenflow.machine import processor
 from peenflow.pipeline import manifest
+from peenflow.pipeline.manifest import Manifest
 from peenflow.pipeline.meter import Cost
 
 BUILD = ROOT / "build" / "reproduction"
 PAGE = ROOT / "docs" / "reproduction.md"
+WHOLE = BUILD / "whole.json"  # what the last command took that measured all parts
 LEAST = 0.01  # %: less is not told apart
 PICTURES = ROOT / "docs" / "pictures" / "reproduction"
 PARTS: dict[str, Part] = {
@@ -70,17 +75,18 @@ def measure(name: str) -> None:
     print(f"{name}: {PARTS[name].title}", flush=True)
     began = time.monotonic()
     found = PARTS[name].measure(Bench(BUILD / name, PICTURES))
-    store(found, time.monotonic() - began, BUILD / f"{name}.json")
+    seconds = time.monotonic() - began
+    store(found, seconds, BUILD / f"{name}.json")
+    print(f"{name}: done in {seconds:.0f} s", flush=True)
 
 
 def page(measured: dict[str, dict[str, Any]]) -> str:
     """docs/reproduction.md from what the parts measured."""
-    took = [cost for name in measured for cost in costs(name)] + costs(hole.FOLDER)
-    cpu, wall = (sum(getattr(cost, name) for cost in took) / 60 for name in ("cpu_s", "wall_s"))
+    cpu = sum(cost.cpu_s for folder in (*measured, hole.FOLDER) for cost in costs(folder)) / 60
     lines = [
         HEAD,
-        f"The stages of all runs took {cpu:.0f} CPU minutes and {wall:.0f} minutes of wall time, one after another (by "
-        f"their manifests; runs that are kept count with what they took when they ran), on {processor()}, "
+        f"The stages of all runs took {cpu:.0f} CPU minutes (by their manifests; runs that are kept count with what "
+        f"they took when they ran){whole()}, on {processor()}, "
         f"{os.cpu_count()} cores, peenflow {peenflow.__version__}. Written on "
         f"{datetime.datetime.now(datetime.UTC):%Y-%m-%d}. {missing(measured)}".strip(),
         "",
@@ -88,11 +94,36 @@ def page(measured: dict[str, dict[str, Any]]) -> str:
     return "\n".join([*lines, *(line for name in PARTS if name in measured for line in section(name, measured[name]))])
 
 
-def costs(name: str) -> list[Cost]:
+def whole() -> str:
+    """What the last command that measured all parts took."""
+    if not WHOLE.exists():
+        return ""
+    took = json.loads(WHOLE.read_text(encoding="utf-8"))
+    kept = f" ({took['kept']} of {took['runs']} runs were kept from before)" if took["kept"] else ""
+    return (
+        f"; the last command that measured all parts took {took['wall_s'] / 60:.0f} minutes of wall time{kept}, "
+        f"{AT_ONCE} parts side by side, each solver with one thread; parts that use several cores themselves ran alone"
+    )
+
+
+def costs(folder: str) -> list[Cost]:
     """What the stages of a part's runs took."""
-    folders = sorted((BUILD / name / "results").glob("*/.peenflow"))
-    ran = [manifest.read(folder.parent, path.stem) for folder in folders for path in sorted(folder.glob("*.json"))]
-    return [one.cost for one in ran if one is not None]
+    return [one.cost for run in runs(folder) for one in run]
+
+
+def runs(folder: str) -> list[list[Manifest]]:
+    """Manifests of the stages of each of a part's runs."""
+    found = sorted((BUILD / folder / "results").glob("*/.peenflow"))
+    read = [[manifest.read(run.parent, path.stem) for path in sorted(run.glob("*.json"))] for run in found]
+    return [[one for one in stages if one is not None] for stages in read]
+
+
+def told_whole(began: datetime.datetime) -> None:
+    """Note what measuring all parts took since `began`."""
+    ran = [run for folder in (*PARTS, hole.FOLDER) for run in runs(folder)]
+    kept = [run for run in ran if all(datetime.datetime.fromisoformat(one.started) < began for one in run)]
+    wall = (datetime.datetime.now(datetime.UTC) - began).total_seconds()
+    WHOLE.write_text(json.dumps({"wall_s": wall, "runs": len(ran), "kept": len(kept)}) + "\n", encoding="utf-8")
 
 
 def elements(name: str) -> str:
@@ -188,13 +219,31 @@ def trimmed(text: str) -> str:
 
 def main(wanted: Sequence[str]) -> None:
     """Measure the parts, write the page."""
+    began = datetime.datetime.now(datetime.UTC)
+    if unknown := [name for name in wanted if name not in PARTS]:
+        raise SystemExit(f"No such part: {', '.join(unknown)}. There are {', '.join(PARTS)}.")
     PICTURES.mkdir(parents=True, exist_ok=True)
-    for name in wanted or PARTS:
-        measure(name)
+    chosen = {name: PARTS[name] for name in wanted or PARTS}
+    for name in chosen:
+        (BUILD / f"{name}.json").unlink(missing_ok=True)  # a part that fails has no figures
+    if len(chosen) == 1:
+        measure(*chosen)
+    else:
+        measure_all(chosen, measure)
     measured = {name: json.loads(path.read_text()) for name in PARTS if (path := BUILD / f"{name}.json").exists()}
+    failed = [name for name in chosen if name not in measured]
+    if len(chosen) == len(PARTS) and not failed:
+        told_whole(began)
     PAGE.write_text(page(measured), encoding="utf-8")
     print(f"{PAGE.relative_to(ROOT)} from {', '.join(measured)}")
+    if failed:
+        raise SystemExit(f"Not measured, for the reasons above: {', '.join(failed)}")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends the workers too
+    try:
+        main(sys.argv[1:])
+    except KeyboardInterrupt:
+        print("Stopped; finished runs are kept.", file=sys.stderr)
+        sys.exit(128 + signal.SIGINT)

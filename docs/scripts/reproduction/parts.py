@@ -59,6 +59,8 @@ class Part:
     measure: Callable[["Bench"], Found]
     elements: str = ""  # why they are not of 0.01 mm, where they are not
     beside: Sequence[str] = ()  # folders of other parts' runs that it looks at
+    lasts: float = 0.0  # s on one thread, about: the longest begin first
+    quiet: bool = False  # it uses several cores itself and tells wall times: nothing else is measured meanwhile
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,7 @@ class Bench:
         """A case directory `name` as `like` (a folder of cases) with tables of case.toml replaced; None removes one."""
         place = self.work / "cases" / name
         place.mkdir(parents=True, exist_ok=True)
-        content = tomllib.loads((ROOT / "cases" / like / "case.toml").read_text(encoding="utf-8"))
+        content = shipped(like)
         for key, value in (changes or {}).items():
             if value is None:
                 content.pop(key, None)
@@ -93,11 +95,16 @@ class Bench:
         return self._kept(name, "solve", str(folder))
 
     def _kept(self, name: str, *words: str) -> Path:
-        out = self.work / "results" / name
+        out, told = self.work / "results" / name, f"{self.work.name}/{name}"
         began = time.monotonic()
-        _peenflow(name, *words, "--out", str(out))
-        print(f"    {name}: {time.monotonic() - began:.0f} s", flush=True)
+        _peenflow(told, *words, "--out", str(out))
+        print(f"    {told}: {time.monotonic() - began:.0f} s", flush=True)
         return out
+
+
+def shipped(case: str | Path) -> dict[str, Any]:
+    """case.toml of a folder of cases."""
+    return tomllib.loads((ROOT / "cases" / case / "case.toml").read_text(encoding="utf-8"))
 
 
 def summary(results: Path) -> dict[str, Any]:

@@ -31,9 +31,13 @@ class Peened:
     response: Response
     cpu: float  # s, of the `solve` stage, less compiling
 
+    def profile(self, x: float = 0.0, y: float = 0.0) -> Profile:
+        """All stresses in the columns of elements about a point of the surface [m]."""
+        return self._profile(profiles.below(self.deck.patch, np.array([x, y])))
+
     def under(self, x: float = 0.0, y: float = 0.0) -> Curve:
-        """In the columns of elements about a point of the surface [m]."""
-        return curve(self._profile(profiles.below(self.deck.patch, np.array([x, y]))))
+        """(S11+S22)/2 likewise."""
+        return curve(self.profile(x, y))
 
     def mean(self, side: float) -> Curve:
         """Mean over the centred square of `side` [m]."""

@@ -191,6 +191,8 @@ PART = Part(
     here="`[exposure] shards`, `accuracy.contact_interval`, `accuracy.group_distance`, `accuracy.boundary` and "
     "`accuracy.depth`; `peenflow study` and docs/accuracy.md measure what each costs in accuracy",
     measure=measure,
+    lasts=195,
+    quiet=True,  # LIGGGHTS runs twice at once
     elements="What is compared here is cost, by the preset `draft` and by the runs of *How deep the mesh must be*.",
     beside=("far_field",),
 )

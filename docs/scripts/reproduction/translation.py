@@ -12,6 +12,7 @@ import hole
 import numpy as np
 import reading
 from contact import DEM_PAPER, FEM_PAPER
+from hard import hard
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
@@ -19,7 +20,6 @@ from matplotlib.patches import Circle, Polygon
 from parts import ROOT, Bench, Found, Part, Row, Table
 
 from peenflow.loads import zones
-from peenflow.loads.placement import HARD
 from peenflow.loads.pressure import fe_forces, force_factor, look_up_table
 from peenflow.records.calibration import Calibration
 from peenflow.results import drawing
@@ -169,8 +169,7 @@ def rows(peening: Peening, calibration: Calibration, passed: int) -> list[Row]:
     """What the translation comes to."""
     impacts, table = peening.impacts, look_up_table(calibration)
     factor = force_factor(impacts, table)
-    hard = impacts.normal_speed >= HARD * impacts.normal_speed.max()
-    raised = float((factor * impacts.peak_force / table.forces(impacts))[hard].max())
+    raised = float((factor * impacts.peak_force / table.forces(impacts))[hard(impacts.normal_speed)].max())
     quads, area = [], []
     for centre, radius in loads(peening, calibration):
         found = zones.load_zone(peening.patch, centre, radius)
@@ -226,7 +225,7 @@ def on_the_hole(peening: Peening, calibration: Calibration) -> dict[str, str]:
         "loads.impacts:remove_edge_doubles": f"{impacts.duplicates_removed} doubles, "
         f"{100 * impacts.duplicates_removed / hits:.0f} to 100 hits",
         "loads.impacts:join_rows": f"{impacts.merged_rows} rows joined to others",
-        "loads.impacts:from_contacts": f"{hits} hits, {len(impacts.t)} hard enough to count",
+        "loads.impacts:from_contacts": f"{hits} hits, {len(impacts.t)} fast enough to count",
         "loads.placement:on_patch": f"{int(impacts.on_patch.sum())} on the patch",
         "loads.zones:sort_nodes": f"{len(patch.node_sets['surface'])} nodes",
         "loads.zones:nearest_nodes": f"{len(borne)} contact points",
@@ -249,7 +248,7 @@ def flow(peening: Peening, contact_rows: int) -> Figure:
         ("on the target, not the rod", impacts.rows),
         ("without an edge's doubles", impacts.rows - impacts.duplicates_removed),
         ("joined over outputs: hits", hits),
-        ("off the rims, hard enough: impacts", len(impacts.t)),
+        ("off the rims, fast enough: impacts", len(impacts.t)),
         ("on the FE patch: loads", int(impacts.on_patch.sum())),
         ("grouped: start times", impacts.groups),
     )
@@ -326,6 +325,7 @@ PART = Part(
     here="stage `translate`: `peenflow.loads`; its input is the stage `dem`'s record, from LIGGGHTS' dump by "
     "`peenflow.dem.liggghts`; `peenflow export` writes the zones for Abaqus and CalculiX",
     measure=measure,
+    lasts=142,
     elements="The bolt hole's run.",
     beside=(hole.FOLDER,),
 )
