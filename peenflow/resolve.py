@@ -38,6 +38,7 @@ class Arrival:
     flight: float | None = None  # m, from the nozzle to what they meet first, the longest; None: nothing flies
     slant: float | None = None  # tangential over normal speed, the most oblique hit's; None: the nozzles tell
     normal_speed: float | None = None  # along the surface's normal, the hardest hit's; None: the nozzles tell
+    surface_speed: float | None = None  # of the shots' surface by the spin that the case's table has; None: it has none
 
 
 def resolve(case: Case, directory: Path) -> Scene:
@@ -81,6 +82,7 @@ def _resolved(case: Case, directory: Path) -> Scene:
         flight=arrival.flight,
         slant=slant,
         normal_speed=normal_speed,
+        surface_speed=arrival.surface_speed,
         plane_met=partial(surfaces.met, surface),
         repeats=_repeats(case, thrown, arrival, predicted.radius),
     )
@@ -163,7 +165,14 @@ def _arrival(case: Case, directory: Path, surface: Surface | None, diameter: flo
         normal = -np.einsum("ij,ij->i", table.velocity, surface.normals(table.point))
         given = one if table.diameter is None else (float(table.diameter.min()), float(table.diameter.max()))
         slant = float(np.max(np.sqrt(speed**2 - normal**2) / normal))
-        return Arrival(float(speed.max()), given, len(speed), slant=slant, normal_speed=float(normal.max()))
+        return Arrival(
+            speed=float(speed.max()),
+            diameters=given,
+            given=len(speed),
+            slant=slant,
+            normal_speed=float(normal.max()),
+            surface_speed=_surface_speed(table.spin, normal, given),
+        )
     if case.contacts and surface is not None:
         return _given_arrival(read_contacts(directory / case.contacts.file, case.contacts), surface, one)
     return Arrival(
@@ -203,7 +212,15 @@ def _given_arrival(table: ContactTable, surface: Surface, one: tuple[float, floa
         given=count,
         slant=float(slant.max()),
         normal_speed=float(normal.max()),
+        surface_speed=_surface_speed(None if table.spin is None else table.spin[table.on_target], normal, given),
     )
+
+
+def _surface_speed(spin: np.ndarray | None, normal: np.ndarray, diameters: tuple[float, float]) -> float | None:
+    """Of the largest shot [m/s], by the fastest `spin` (n, 3) [rad/s] of hits that are hard by `normal` (n,) [m/s]."""
+    if spin is None:
+        return None
+    return float(np.linalg.norm(spin[normal >= HARD * normal.max()], axis=1).max()) * diameters[1] / 2
 
 
 def _longest_flight(case: Case, surface: Surface | None) -> float:

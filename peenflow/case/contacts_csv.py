@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 
 from peenflow.case import mapped_csv
-from peenflow.case.mapped_csv import FORCE, POINT, VELOCITY, Source
+from peenflow.case.mapped_csv import FORCE, POINT, SPIN, UNITS, VELOCITY, Source
 from peenflow.case.model import ContactsFile
 from peenflow.errors import InputError
 
-LARGEST = 1e12  # of a number in SI: beyond, nothing can be computed
+LARGEST = dict.fromkeys(("", *UNITS.values()), 1e12)  # of a number in SI: beyond, nothing can be computed
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,7 @@ class ContactTable:
     velocity: np.ndarray  # (n, 3), of the shot
     force: np.ndarray | None  # (n, 3), on the shot
     diameter: np.ndarray | None  # (n,), of the shot; None: the case's
+    spin: np.ndarray | None = None  # rad/s, (n, 3), of the shot before the contact; None: it does not spin
 
 
 def read_contacts(path: Path, section: ContactsFile) -> ContactTable:
@@ -54,4 +55,5 @@ def read_contacts(path: Path, section: ContactsFile) -> ContactTable:
         velocity=table.vectors(VELOCITY),
         force=table.vectors(FORCE) if "fx" in table.values else None,
         diameter=table.values.get("diameter"),
+        spin=table.vectors(SPIN) if "wx" in table.values else None,
     )

@@ -6,15 +6,16 @@ from pathlib import Path
 import numpy as np
 
 from peenflow.case import mapped_csv
-from peenflow.case.mapped_csv import POINT, VELOCITY, Column, Header, Lines, Source, Table
+from peenflow.case.mapped_csv import POINT, SPIN, VELOCITY, Column, Header, Lines, Source, Table
 from peenflow.case.model import ImpactsFile
 from peenflow.errors import InputError
 from peenflow.geometry import Surface
 
 COLUMNS = {"t": "t_s", "x": "x_m", "y": "y_m", "z": "z_m", "vx": "vx_m_s", "vy": "vy_m_s", "vz": "vz_m_s"}
-OPTIONAL = {"diameter": "diameter_m"}
+SPINS = {"wx": "wx_rad_s", "wy": "wy_rad_s", "wz": "wz_rad_s"}
+OPTIONAL = {"diameter": "diameter_m"} | SPINS
 FASTEST = 500.0  # m/s; above, shots shatter and the material laws here were never measured
-FARTHEST = 1e3  # m, of a place, and s of a time
+LARGEST = {"s": 1e3, "m": 1e3, "m/s": 1e3, "rad/s": 1e9}  # of a cell, by unit; a shot that rolls spins with 1e6 rad/s
 ON_SURFACE = 1e-6  # m: how far from the surface peenflow's own table may put a first touch (rounding)
 ADVICE = "Give where and how fast each sphere first touches the undeformed surface, in the target's frame"
 OTHERS = 'write units behind headers, columns.x = "header [mm]", and give raw rows of contact as [contacts]'
@@ -28,6 +29,7 @@ class ImpactTable:
     point: np.ndarray  # m, (n, 3): where; other tools' points lie up to a shot's diameter off the surface
     velocity: np.ndarray  # m/s, (n, 3): of the shot then
     diameter: np.ndarray | None  # m, (n,): of the shot; None: the case's
+    spin: np.ndarray | None = None  # rad/s, (n, 3): of the shot before the hit; None: it does not spin
 
 
 def read_impacts(path: Path, section: ImpactsFile, surface: Surface, diameter: float) -> ImpactTable:
@@ -75,12 +77,13 @@ def _read(path: Path, section: ImpactsFile) -> tuple[Table, ImpactTable]:
             header = _own_header(source, lines)
         else:
             header = mapped_csv.find_header(source, lines, section.columns)
-        table = mapped_csv.read_rows(source, lines, header, FARTHEST)
+        table = mapped_csv.read_rows(source, lines, header, LARGEST)
     impacts = ImpactTable(
         t=table.values["t"],
         point=table.vectors(POINT),
         velocity=table.vectors(VELOCITY),
         diameter=table.values.get("diameter"),
+        spin=table.vectors(SPIN) if "wx" in table.values else None,
     )
     speed = np.linalg.norm(impacts.velocity, axis=1)
     table.refuse(speed > FASTEST, VELOCITY, f"the shot is faster than {FASTEST:g} m/s", f"{ADVICE}.")
@@ -98,6 +101,8 @@ def _own_header(source: Source, lines: Lines) -> Header:
             )
     missing = [text for text in COLUMNS.values() if text not in cells]
     unknown = set(cells) - {*COLUMNS.values(), *OPTIONAL.values()}
+    if set(SPINS.values()) & set(cells):
+        missing += [text for text in SPINS.values() if text not in cells]
     if missing or unknown or len(set(cells)) < len(cells):
         fault = f"lacks {', '.join(missing)}" if missing else f"has unknown or double columns: {', '.join(cells)}"
         raise InputError(

@@ -19,8 +19,8 @@ from peenflow.errors import InputError
 from peenflow.files import lines as text_lines
 
 UNITS = {"t": "s", "x": "m", "y": "m", "z": "m", "vx": "m/s", "vy": "m/s", "vz": "m/s"}
-UNITS |= {"fx": "N", "fy": "N", "fz": "N", "diameter": "m"}
-POINT, VELOCITY, FORCE = ("x", "y", "z"), ("vx", "vy", "vz"), ("fx", "fy", "fz")
+UNITS |= {"fx": "N", "fy": "N", "fz": "N", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s", "diameter": "m"}
+POINT, VELOCITY, FORCE, SPIN = ("x", "y", "z"), ("vx", "vy", "vz"), ("fx", "fy", "fz"), ("wx", "wy", "wz")
 DELIMITERS = ",;\t"  # else columns are parted by blanks
 PREAMBLE = 1000  # lines among which the header is looked for
 MOST = 10_000_000  # rows
@@ -182,7 +182,7 @@ def _column(source: Source, name: str, header: str, index: int) -> Column:
 
 
 def read_rows(
-    source: Source, lines: Lines, header: Header, largest: float, words: Mapping[str, str] | None = None
+    source: Source, lines: Lines, header: Header, largest: Mapping[str, float], words: Mapping[str, str] | None = None
 ) -> Table:
     """What stands below the header; rows of blank cells are left out.
 
@@ -190,7 +190,7 @@ def read_rows(
         source: for what is said of a wrong row.
         lines: from below the header on.
         header: the columns wanted; others are left alone.
-        largest: magnitude in SI that a number may have.
+        largest: magnitude in SI that a number may have, by its unit ("": it has none).
         words: by the quantity of a column of text, the text that counts as 1, any other as 0; None: all are numbers.
 
     Raises:
@@ -210,9 +210,10 @@ def read_rows(
         values = {name: found[:, at] * column.factor for at, (name, column) in enumerate(header.columns.items())}
     table = Table(source, header.columns, np.array(numbered), values)
     for name, value in values.items():
-        most = f"±{largest:g} {UNITS.get(name, '')}".strip()
+        unit = UNITS.get(name, "")
+        most = f"±{largest[unit]:g} {unit}".strip()
         table.refuse(np.isnan(value), (name,), "'nan' is not a finite number", MEND)
-        table.refuse(np.abs(value) > largest, (name,), f"a number is beyond {most}", MEND)
+        table.refuse(np.abs(value) > largest[unit], (name,), f"a number is beyond {most}", MEND)
     if "diameter" in values:
         table.refuse(values["diameter"] <= 0, ("diameter",), "the shot's diameter is not positive", MEND)
     return table

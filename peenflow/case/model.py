@@ -225,6 +225,9 @@ class ImpactColumns(Section):
     vx: str
     vy: str
     vz: str
+    wx: str | None = None
+    wy: str | None = None
+    wz: str | None = None
     diameter: str | None = None
 
 

@@ -196,6 +196,14 @@ def _far_field(case: Case) -> Iterator[Problem]:
         )
 
 
+def _spins(case: Case) -> Iterator[Problem]:
+    for section, table in (("impacts", case.impacts), ("contacts", case.contacts)):
+        if table is not None and table.columns is not None:
+            spins = [getattr(table.columns, name) for name in ("wx", "wy", "wz")]
+            if any(spins) and not all(spins):
+                yield Problem((section, "columns"), "name all of wx, wy, wz, or none of them")
+
+
 def _contacts(case: Case) -> Iterator[Problem]:
     if case.contacts is None:
         return
@@ -235,6 +243,7 @@ def _files(case: Case, directory: Path) -> Iterator[Problem]:
 _RULES: tuple[Callable[[Case], Iterator[Problem]], ...] = (
     _work,
     _companions,
+    _spins,
     _contacts,
     _part,
     _shot,

@@ -48,6 +48,8 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | tables.Given | Skip:
     if case.contacts:
         section = case.contacts
         table = read_contacts(scene.directory / section.file, section)
+        if not scene.effects["shot_spin"].on:
+            table = dataclasses.replace(table, spin=None)
         return tables.Given(section.file, table, scene.shot.diameter, section.interval or 0.0, section.shots)
     target = upstream.target
     if not case.nozzle or case.exposure is None or target is None or target.facets is None:

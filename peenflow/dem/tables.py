@@ -45,4 +45,5 @@ def contacts(given: Given) -> Contacts:
         shots=len(np.unique(table.shot)) if given.shots is None else given.shots,
         engine=f"another tool's, read from {given.name}",
         time_step=0.0,
+        spin=None if table.spin is None else table.spin[order],
     )

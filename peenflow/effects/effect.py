@@ -27,6 +27,10 @@ class Situation:
     normal_speed: float  # m/s, along the surface's normal, of the hardest first hits on the target
     slant: float  # tangential over normal speed of the hits, the most oblique ones'
     plane_met: Callable[[np.ndarray, np.ndarray], Plane | None]  # by a flight from a point (3,) along (3,)
+    surface_speed: (
+        float | None
+    )  # m/s, of the shots' surface by the spin they bring, the hard hits' largest, by the case's
+    # table; None: it has no such columns, or there is no table
     repeats: float  # share of the dented area that was dented before
 
 

@@ -14,11 +14,13 @@ MET = 0.27
 
 
 def _estimate(situation: Situation) -> Estimate:
-    if situation.flight is None:
-        return Estimate(None, "no flight in this case")
     friction = situation.case.dem.friction
     if friction == 0:
         return Estimate(None, "dem.friction is 0")
+    if situation.surface_speed is not None:
+        return _given(situation, situation.surface_speed)
+    if situation.flight is None:
+        return Estimate(None, "no flight in this case")
     met = meeting_share(situation)
     change = MET * friction * met**2
     by_others = Estimate(
@@ -29,6 +31,18 @@ def _estimate(situation: Situation) -> Estimate:
     rod = situation.case.deflector
     by_rod = None if rod is None else _off_the_rod(situation, rod)
     return by_others if by_rod is None or (by_rod.share or 0.0) < (by_others.share or 0.0) else by_rod
+
+
+def _given(situation: Situation, surface: float) -> Estimate:
+    """By a table that tells spins: the hard hits' fastest, whichever way it turns."""
+    turned = surface / situation.normal_speed
+    plain = _friction(situation, situation.slant)
+    change = max(abs(_friction(situation, situation.slant + way * turned) - plain) for way in (1, -1))
+    return Estimate(
+        change,
+        f"by the case's table the surface of hard hits' shots moves with up to {surface:.3g} m/s, which changes "
+        f"friction by up to {change:.1%} of the normal impulse",
+    )
 
 
 def _off_the_rod(situation: Situation, rod: Deflector) -> Estimate:
@@ -63,8 +77,8 @@ EFFECT = Effect(
     criterion="the larger of what the rod's and other shots' spin changes friction by, over the normal impulse: off "
     "the rod f(s+w) − f(s), f(s) = (2/7)·s/(1+e), at most μ, s = v_t/v_n on the wall, w = (5/2)·min((2/7)·v cos(α), "
     "μ(1+e)·v sin(α))/v_n the speed of the shots' surface off a face at α to the axis (Walton's hard sphere); of "
-    "others 0.27·μ·p², p the share of shots that meet one (embedded engine, jets at plates, within 40 %); it needs "
-    "`contact_friction`",
+    "others 0.27·μ·p², p the share of shots that meet one (embedded engine, jets at plates, within 40 %); of spins in "
+    "the case's table w = R ω/v_n, the hard hits' fastest, either way; it needs `contact_friction`",
     cost="DEM by LIGGGHTS takes a tenth longer and writes half as much again until its run is over; by the "
     "event-driven engine and in the finite elements none to speak of",
     estimate=_estimate,

@@ -86,7 +86,7 @@ def from_contacts(contacts: Contacts, surface: Surface, rules: Rules) -> Impacts
 
 
 def from_table(table: ImpactTable, surface: Surface, diameter: float, rules: Rules) -> Impacts:
-    """Impacts that the case gives, without spin; `diameter` [m] where the table has none. Shots are its rows from 0."""
+    """Impacts that the case gives; `diameter` [m] where the table has none. Shots are its rows from 0."""
     number = len(table.t)
     hits = _Hits(
         t=table.t,
@@ -95,6 +95,7 @@ def from_table(table: ImpactTable, surface: Surface, diameter: float, rules: Rul
         peak_force=np.full(number, np.nan),
         diameter=np.full(number, diameter) if table.diameter is None else table.diameter,
         shot=np.arange(number),
+        spin=table.spin,
     )
     return _sifted(hits, surface, rules, {"rows": number, "merged_rows": 0, "duplicates_removed": 0})
 

@@ -82,6 +82,8 @@ def inputs(scene: Scene, upstream: Upstream) -> Inputs | Skip:
     if case.impacts:
         file = scene.directory / case.impacts.file
         hits = read_impacts(file, case.impacts, scene.surface, scene.shot.diameter)
+        if not scene.effects["shot_spin"].on:
+            hits = dataclasses.replace(hits, spin=None)
     if hits is None:
         return Skip("there are no contacts")
     return Inputs(

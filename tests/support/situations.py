@@ -33,5 +33,6 @@ def situation(name: str, *settings: str) -> Situation:
         normal_speed=speed,
         slant=0.0,
         plane_met=partial(surfaces.met, surface),
+        surface_speed=None,
         repeats=0.0,
     )

@@ -15,7 +15,7 @@ from peenflow.results.evaluation import Peening
 from peenflow.results.profiles import Profile
 from peenflow.scene import Scene
 
-SOLVED = ("rate_hardening", "thermal_softening", "kinematic_hardening", "contact_friction", "far_field")  # effects
+SOLVED = ("rate_hardening", "thermal_softening", "kinematic_hardening", "contact_friction", "shot_spin", "far_field")
 MM = 1e3
 
 
@@ -43,10 +43,14 @@ def pinned(results: Path) -> dict[str, str]:
     return {name: states[name]["state"].split()[-1] for name in SOLVED}
 
 
-def look(bench: Bench, spot: Spot, size: float, mesh_size: float) -> Peened:
-    """The impact again with those beside it, on a square patch of `size` [m] centred on it, else as in its case."""
+def look(bench: Bench, spot: Spot, size: float, mesh_size: float, **effects: str) -> Peened:
+    """The impact again with those beside it, on a square patch of `size` [m] centred on it, else as in its case.
+
+    Args:
+        effects: those that are to be another than in the run.
+    """
     impacts, borne = spot.peening.impacts, spot.on_patch(size)
-    name = f"closer-{MM * size:.3g}-{MM * mesh_size:.3g}"
+    name = "-".join([f"closer-{MM * size:.3g}-{MM * mesh_size:.3g}", *(f"{key}-{is_}" for key, is_ in effects.items())])
     case = bench.case(
         name,
         spot.like,
@@ -60,10 +64,11 @@ def look(bench: Bench, spot: Spot, size: float, mesh_size: float) -> Peened:
             "target": shipped(spot.like)["target"]
             | {"patch": {"length": f"{MM * size} mm", "arc": f"{MM * size} mm", "at": spot.at}},
             "accuracy": {"preset": spot.of.case.accuracy.preset, "mesh_size": f"{MM * mesh_size} mm"},
-            "effects": pinned(spot.results),
+            "effects": pinned(spot.results) | effects,
         },
     )
-    shots_table.write(case, impacts.t[borne], impacts.point[borne], impacts.velocity[borne])
+    spin = None if impacts.spin is None else impacts.spin[borne]
+    shots_table.write(case, impacts.t[borne], impacts.point[borne], impacts.velocity[borne], spin)
     return read(bench.run(case, name, until="solve"))
 
 

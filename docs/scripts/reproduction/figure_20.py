@@ -27,6 +27,7 @@ class Figure20:
     """What stands beside each other in it."""
 
     under: Closer
+    unspun: Profile  # under the impact, were the shot to arrive without its spin
     at_nozzle: Profile  # under one shot onto a plane at the nozzle's speed
     alike: Profile  # likewise at the impact's normal speed
 
@@ -38,6 +39,7 @@ def measure(bench: Bench, results: Path, peening: Peening, alone: Alone) -> Figu
     spot = Spot(hole.CASE.name, hole.scene(), results, peening, alone.row, at)
     return Figure20(
         under=closer.compare(bench, spot, SIZES, FINE),
+        unspun=closer.look(bench, spot, SIZES[0], FINE, shot_spin="off").profile(),
         at_nozzle=single(bench, results, hole.scene().speed),
         alike=single(bench, results, alone.speed),
     )
@@ -92,7 +94,9 @@ def rows(found: Figure20, alone: Alone) -> list[Row]:
             '"very similar to the observed phenomenon"',
             percent_off(curve(found.under.profile), curve(found.alike)),
             "% rms of its least stress",
-            "curvature and the shot's oblique path with friction",
+            "curvature and the shot's oblique path with friction; without the spin that it has got off the rod it would "
+            f"be {percent_off(curve(found.unspun), curve(found.alike)):.1f} %, with a largest compression of "
+            f"{MPA * profiles.residual(found.unspun).minimum:.0f} MPa",
         ),
         found.under.row("Figure 20", "on the patch that bears all impacts"),
     ]
@@ -115,6 +119,7 @@ def picture(found: Figure20, alone: Alone) -> Figure:
     label = f"hole, load factor {alone.factor:.2f}\n(paper: {PAPER_FACTOR:g})"
     means.plot(UM * under.depth, MPA * under.in_plane, "o-", ms=5, label=label, **thick)
     for profile, label, style, colour in (
+        (found.unspun, "hole, shot without its spin", "o--", drawing.BLUE),
         (found.under.whole, f"hole, elements of {found.under.own * MM:.3g} mm", "o-", drawing.ORANGE),
         (found.alike, f"single shot, {alone.speed:.1f} m/s", "o--", drawing.INK),
         (found.at_nozzle, f"single shot, {hole.scene().speed:.1f} m/s", "o:", drawing.INK),

@@ -38,6 +38,7 @@ from peenflow.machine import processor
 from peenflow.pipeline import manifest
 from peenflow.pipeline.manifest import Manifest
 from peenflow.pipeline.meter import Cost
+from peenflow.pipeline.stages import STAGES
 
 BUILD = ROOT / "build" / "reproduction"
 PAGE = ROOT / "docs" / "reproduction.md"
@@ -113,15 +114,16 @@ def costs(folder: str) -> list[Cost]:
 
 def runs(folder: str) -> list[list[Manifest]]:
     """Manifests of the stages of each of a part's runs."""
-    found = sorted((BUILD / folder / "results").glob("*/.peenflow"))
-    read = [[manifest.read(run.parent, path.stem) for path in sorted(run.glob("*.json"))] for run in found]
+    found = sorted(run.parent for run in (BUILD / folder / "results").glob("*/.peenflow"))
+    read = [[manifest.read(run, stage.name) for stage in STAGES] for run in found]
     return [[one for one in stages if one is not None] for stages in read]
 
 
 def told_whole(began: datetime.datetime) -> None:
     """Note what measuring all parts took since `began`."""
     ran = [run for folder in (*PARTS, hole.FOLDER) for run in runs(folder)]
-    kept = [run for run in ran if all(datetime.datetime.fromisoformat(one.started) < began for one in run)]
+    starts = [[datetime.datetime.fromisoformat(one.started) for one in run if one.started] for run in ran]
+    kept = [run for run in starts if all(start < began for start in run)]
     wall = (datetime.datetime.now(datetime.UTC) - began).total_seconds()
     WHOLE.write_text(json.dumps({"wall_s": wall, "runs": len(ran), "kept": len(kept)}) + "\n", encoding="utf-8")
 

@@ -80,6 +80,20 @@ def test_the_same_impacts_in_either_table_give_the_same_translated_impacts_and_s
             assert np.allclose(getattr(own.deck.spheres, field), getattr(other.deck.spheres, field), atol=1e-15), field
 
 
+def test_spins_of_the_table_reach_the_spheres_where_friction_feels_them(tmp_path):
+    """Turned into the patch's frame as the velocities are; without friction nobody asks."""
+    rows = own_table().splitlines()
+    spins = np.array([[1e4, 2e5, -3e4], [0.0, 1e5, 0.0], [0.0, 0.0, 1e5]])
+    told = [",".join([row, *map(repr, spin)]) for row, spin in zip(rows[1:], spins.tolist(), strict=True)]
+    table = "\n".join([rows[0] + ",wx_rad_s,wy_rad_s,wz_rad_s", *told]) + "\n"
+    rough = CASE + "\n[dem]\nfriction = 0.3\n"
+    found = translated(tmp_path / "rough", rough, table)
+    assert np.array_equal(found.impacts.spin, spins)
+    turned = found.impacts.spin[found.impacts.on_patch] @ found.deck.placement.rotation
+    assert np.allclose(found.deck.spheres.spin, turned, rtol=1e-12)
+    assert translated(tmp_path / "smooth", CASE + "\n[dem]\nfriction = 0\n", table).deck.spheres.spin is None
+
+
 @pytest.mark.parametrize(
     ("case", "table", "message"),
     [

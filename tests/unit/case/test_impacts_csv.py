@@ -30,6 +30,29 @@ def test_a_table_is_read_with_blank_lines_and_columns_in_any_order(tmp_path):
     assert np.array_equal(table.diameter, [3e-4])
 
 
+def test_spins_are_read_where_the_table_has_them(tmp_path):
+    path = written(tmp_path, HEADER + ",wx_rad_s,wy_rad_s,wz_rad_s", GOOD + ",1e5,-2e5,3")
+    assert read(path).spin.tolist() == [[1e5, -2e5, 3]]
+    assert read(written(tmp_path, HEADER, GOOD)).spin is None
+
+
+def test_spins_of_another_tool_have_their_unit(tmp_path):
+    names = {"t": "T", "x": "X", "y": "Y", "z": "Z", "vx": "U", "vy": "V", "vz": "W"}
+    path = written(tmp_path, "T,X,Y,Z,U,V,W,P,Q,R", GOOD + ",60,0,-60")
+    spins = {"wx": "P [rpm]", "wy": "Q [rpm]", "wz": "R [rpm]"}
+    assert read(path, names | spins).spin == pytest.approx(np.array([[2 * np.pi, 0, -2 * np.pi]]))
+
+
+def test_a_spin_in_part_is_refused(tmp_path):
+    with pytest.raises(InputError, match="line 1, lacks wy_rad_s, wz_rad_s"):
+        read(written(tmp_path, HEADER + ",wx_rad_s", GOOD + ",1e5"))
+
+
+def test_a_place_a_kilometre_off_is_none(tmp_path):
+    with pytest.raises(InputError, match=r"line 2, column 'x_m': a number is beyond ±1000 m"):
+        read(written(tmp_path, HEADER, "0,2e3,0,0,0,0,-50"))
+
+
 def test_without_a_diameter_column_there_is_none(tmp_path):
     assert read(written(tmp_path, HEADER, GOOD)).diameter is None
 

@@ -38,7 +38,7 @@ def scene(surface, geometry, patch, directory=Path("."), friction=False, **table
         thrown=Thrown(SHOT, np.array([SHOT.diameter]), np.ones(1)),
         material=Material("inconel718", 8200, 211e9, 0.29, 1241e6, 622e6, 0.6522, None, None),
         knobs=KNOBS,
-        effects={"contact_friction": Decision(friction, "auto", None, 0.02, "", "")},
+        effects={name: Decision(friction, "auto", None, 0.02, "", "") for name in ("contact_friction", "shot_spin")},
         not_modelled={},
         speed=62.5,
         dent_radius=6e-5,
@@ -81,6 +81,6 @@ def test_the_pressures_shape_is_the_knobs(tmp_path):
 
 def test_friction_acts_only_where_its_effect_is_on(tmp_path):
     off = given(tmp_path)
-    on = dataclasses.replace(off, effects={"contact_friction": Decision(True, "on", None, 0.02, "", "")})
+    on = dataclasses.replace(off, effects=off.effects | {"contact_friction": Decision(True, "on", None, 0.02, "", "")})
     assert stage.inputs(off, MESHED).friction == 0.0
     assert stage.inputs(on, MESHED).friction == 0.3
