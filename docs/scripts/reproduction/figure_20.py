@@ -94,7 +94,7 @@ def rows(found: Figure20, alone: Alone) -> list[Row]:
             '"very similar to the observed phenomenon"',
             percent_off(curve(found.under.profile), curve(found.alike)),
             "% rms of its least stress",
-            "curvature and the shot's oblique path with friction; without the spin that it has got off the rod it would "
+            "curvature and the shot's oblique path with friction; without the spin that it got off the rod it would "
             f"be {percent_off(curve(found.unspun), curve(found.alike)):.1f} %, with a largest compression of "
             f"{MPA * profiles.residual(found.unspun).minimum:.0f} MPa",
         ),
