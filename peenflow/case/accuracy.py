@@ -18,9 +18,8 @@ MARGIN = 1.0  # predicted dent radii between an impact that is loaded and the pa
 HOURGLASS = 0.05  # Flanagan and Belytschko's coefficient: docs/decisions/hourglass.md
 FACET_SIZES = {"plate": 8.0, "bolt-hole": 1.35, "fillet": SCATTER, "step": SCATTER}  # shot diameters; see `facet_size`
 SCATTERS = {"plate": 1.0, "bolt-hole": 1.0, "fillet": SCATTER, "step": SCATTER}  # facet size over the shortest edge
-BELOW_PLASTIC = (
-    1.75  # of the predicted plastic radius: half as deep again as the stress is compressive under soft metal
-)
+# of the predicted plastic radius: half as deep again as the stress is compressive under soft metal
+BELOW_PLASTIC = 1.75
 WHOLE = 1.5  # depths: of a plate that is hardly thicker all is meshed, rather than an infinite body put behind it
 GROUP_DISTANCE = 1.5  # shot diameters: two simultaneous hits change the residual stress by 0.5 % rms (1.0: 1.2 %)
 

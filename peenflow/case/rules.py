@@ -6,6 +6,7 @@ from pathlib import Path
 
 from peenflow.case import placement
 from peenflow.case.lines import KeyPath
+from peenflow.case.mapped_csv import FORCE, SPIN
 from peenflow.case.model import BoltHoleGeometry, Case, PlateGeometry, StepGeometry
 from peenflow.case.problems import Problem
 from peenflow.errors import InputError
@@ -196,21 +197,20 @@ def _far_field(case: Case) -> Iterator[Problem]:
         )
 
 
-def _spins(case: Case) -> Iterator[Problem]:
+def _vectors(case: Case) -> Iterator[Problem]:
+    """Of a table's vectors that may be left out all components are named, or none."""
     for section, table in (("impacts", case.impacts), ("contacts", case.contacts)):
-        if table is not None and table.columns is not None:
-            spins = [getattr(table.columns, name) for name in ("wx", "wy", "wz")]
-            if any(spins) and not all(spins):
-                yield Problem((section, "columns"), "name all of wx, wy, wz, or none of them")
+        columns = None if table is None else table.columns
+        for names in (SPIN, FORCE):
+            named = [getattr(columns, name, None) for name in names]
+            if any(named) and not all(named):
+                yield Problem((section, "columns"), f"name all of {', '.join(names)}, or none of them")
 
 
 def _contacts(case: Case) -> Iterator[Problem]:
     if case.contacts is None:
         return
     columns = case.contacts.columns
-    forces = [getattr(columns, name) for name in ("fx", "fy", "fz")]
-    if any(forces) and not all(forces):
-        yield Problem(("contacts", "columns"), "name all of fx, fy, fz, or none of them")
     if (columns.surface is None) != (case.contacts.target is None):
         yield Problem(
             ("contacts",), "columns.surface and target go together: the column of surfaces, and the part's name in it"
@@ -243,7 +243,7 @@ def _files(case: Case, directory: Path) -> Iterator[Problem]:
 _RULES: tuple[Callable[[Case], Iterator[Problem]], ...] = (
     _work,
     _companions,
-    _spins,
+    _vectors,
     _contacts,
     _part,
     _shot,

@@ -61,6 +61,7 @@ def test_dem_takes_the_table_and_says_so(case):
         ('vz = "VZ"', 'vz = "Time [ms]"', "'ms' is no unit that converts to m/s"),
         ('vz = "VZ"', 'vz = "Particle ID"', "in no row of the table does a shot approach"),
         ('vz = "VZ"', 'vz = "VZ"\ncolumns.fx = "VX"', "name all of fx, fy, fz"),
+        ('vz = "VZ"', 'vz = "VZ"\ncolumns.wx = "VX"', "name all of wx, wy, wz"),
         ('vz = "VZ"', 'vz = "VZ"\ncolumns.surface = "X"', "columns.surface and target go together"),
         ("[accuracy]", "[single_shot]\nspeed = '9 m/s'\n[accuracy]", "excludes contacts"),
     ],
